@@ -1,0 +1,109 @@
+// The temporal gradient of each stratum, as numerator and denominator of λ = A[Δ^(γ−1)|δ|] / A[Δ^γ], A the filter that
+// follows: γ = 1 is Schied et al. 2018 (filter, then divide), where a dim change beside a bright steady light drowns;
+// γ = 0 divides first.
+//
+// With HISTORY_RATIO, the history is going to be multiplied by ρ = A[f]/A[f'] before it is blended: what is left for λ to
+// drop is the residual |f − ρf'|.
+
+#import asvgf::frame::frame
+#import asvgf::color::luminance
+#import asvgf::packing::unpack_rgb
+#import asvgf::strata::{sample_pixel, previous_pixel}
+#ifdef BLINN_PHONG
+#import asvgf::blinn_phong::shade_pair
+#endif
+
+@group(0) @binding(1) var samples: texture_2d<u32>;
+#ifdef BLINN_PHONG
+@group(0) @binding(2) var visibility_previous: texture_2d<u32>;
+#else
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+@group(0) @binding(3) var radiance_previous: texture_2d<u32>;
+#endif
+#ifdef HISTORY_RATIO
+@group(0) @binding(4) var now_filtered: texture_2d<f32>;
+@group(0) @binding(5) var before_filtered: texture_2d<f32>;
+@group(0) @binding(6) var product_filtered: texture_2d<f32>;
+// ρ for r, g, b and luminance.
+@group(0) @binding(7) var ratio_out: texture_storage_2d<rgba32float, write>;
+#endif
+// Numerator, denominator.
+@group(0) @binding(8) var gradient_out: texture_storage_2d<rg32float, write>;
+
+// Luminances, demodulated, below which there is nothing to compare: 2⁻¹⁰⁰ keeps every later product a normal number.
+const DARK: f32 = 7.9e-31;
+
+#ifdef HISTORY_RATIO
+// a/b, and exactly 1 for a = b: a GPU's division may be off by an ulp, and a static scene must keep its history exactly.
+fn quotient(a: f32, b: f32) -> f32 {
+    return select(a / b, 1.0, a == b);
+}
+
+fn history_ratio(stratum: vec2<i32>) -> vec4<f32> {
+    let now = textureLoad(now_filtered, stratum, 0);
+    let before = textureLoad(before_filtered, stratum, 0);
+    let product = textureLoad(product_filtered, stratum, 0).x;
+    let l = luminance(now.xyz);
+    let l_before = luminance(before.xyz);
+    // A prior towards 1 in proportion to what there was; in full darkness there is nothing to scale.
+    let e = frame.ratio_prior * l_before;
+    if max(l, l_before) <= DARK || l_before + e <= 0.0 {
+        return vec4(1.0);
+    }
+    let luminance_ratio = quotient(l + e, l_before + e);
+    let limit = frame.ratio_chroma_limit;
+    var color_ratio = vec3(
+        quotient(now.x + e, before.x + e),
+        quotient(now.y + e, before.y + e),
+        quotient(now.z + e, before.z + e),
+    );
+    color_ratio = clamp(color_ratio, vec3(luminance_ratio / limit), vec3(luminance_ratio * limit));
+    var ratio = vec4(color_ratio, luminance_ratio);
+    // Shrink towards 1 by the ratio's own variance (the delta method for a quotient of means of correlated pairs).
+    let r = luminance_ratio;
+    let variance = max(now.w - 2.0 * r * product + r * r * before.w, 0.0)
+        / (frame.ratio_shrinkage * max(l_before * l_before, DARK));
+    let excess = (r - 1.0) * (r - 1.0);
+    let kept = select(max(0.0, 1.0 - variance / max(excess, 1e-9)), 0.0, excess == 0.0 && variance > 0.0);
+    ratio = 1.0 + (ratio - 1.0) * kept;
+    return clamp(ratio, vec4(1.0 / frame.ratio_limit), vec4(frame.ratio_limit));
+}
+#endif
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= frame.strata) {
+        return;
+    }
+    let stratum = vec2<i32>(id.xy);
+    let record = textureLoad(samples, stratum, 0);
+    var gradient = vec2(0.0);
+#ifdef HISTORY_RATIO
+    var ratio = vec4(1.0);
+#endif
+    if record.x != 0u {
+#ifdef BLINN_PHONG
+        let pair = shade_pair(textureLoad(visibility_previous, previous_pixel(record), 0).x, previous_pixel(record));
+        let now = pair.x;
+        var before = pair.y;
+#else
+        let now = luminance(unpack_rgb(textureLoad(radiance, sample_pixel(record, stratum), 0).xy));
+        var before = luminance(unpack_rgb(textureLoad(radiance_previous, previous_pixel(record), 0).xy));
+#endif
+#ifdef HISTORY_RATIO
+        ratio = history_ratio(stratum);
+        before *= ratio.w;
+#endif
+        let larger = max(now, before);
+        if larger > DARK {
+            gradient = vec2(
+                abs(now - before) * pow(larger, frame.gradient_gamma - 1.0),
+                pow(larger, frame.gradient_gamma),
+            );
+        }
+    }
+    textureStore(gradient_out, stratum, vec4(gradient, 0.0, 0.0));
+#ifdef HISTORY_RATIO
+    textureStore(ratio_out, stratum, ratio);
+#endif
+}

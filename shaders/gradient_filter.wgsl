@@ -1,0 +1,40 @@
+// One à-trous iteration over the strata grid, on the gradient's numerator and denominator.
+
+#import asvgf::frame::frame
+#import asvgf::strata_filter::{site, tap_weight, in_grid}
+
+@group(0) @binding(1) var<uniform> stride: i32;
+@group(0) @binding(2) var samples: texture_2d<u32>;
+@group(0) @binding(3) var gradient: texture_2d<f32>;
+@group(0) @binding(4) var gradient_out: texture_storage_2d<rg32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= frame.strata) {
+        return;
+    }
+    let stratum = vec2<i32>(id.xy);
+    let record = textureLoad(samples, stratum, 0);
+    var sum = vec2(0.0);
+    var weights = 0.0;
+    if record.x != 0u {
+        let center = site(record, stratum);
+        for (var y = -1; y <= 1; y++) {
+            for (var x = -1; x <= 1; x++) {
+                let offset = vec2(x, y);
+                let tap = stratum + offset * stride;
+                if !in_grid(tap) {
+                    continue;
+                }
+                let other = textureLoad(samples, tap, 0);
+                if other.x == 0u {
+                    continue;
+                }
+                let w = tap_weight(center, site(other, tap), offset, stride);
+                sum += w * textureLoad(gradient, tap, 0).xy;
+                weights += w;
+            }
+        }
+    }
+    textureStore(gradient_out, stratum, vec4(sum / max(weights, 1.0), 0.0, 0.0));
+}

@@ -1,0 +1,37 @@
+// For each stratum with a sample, the two radiances that one path had, now (f) and in the previous frame (f'), and the
+// products from which the history ratio's variance follows.
+
+#import asvgf::frame::frame
+#import asvgf::color::luminance
+#import asvgf::packing::unpack_rgb
+#import asvgf::strata::{sample_pixel, previous_pixel}
+
+@group(0) @binding(1) var samples: texture_2d<u32>;
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+@group(0) @binding(3) var radiance_previous: texture_2d<u32>;
+// rgb of f, l²
+@group(0) @binding(4) var now_out: texture_storage_2d<rgba32float, write>;
+// rgb of f', l'²
+@group(0) @binding(5) var before_out: texture_storage_2d<rgba32float, write>;
+// l·l'
+@group(0) @binding(6) var product_out: texture_storage_2d<r32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= frame.strata) {
+        return;
+    }
+    let stratum = vec2<i32>(id.xy);
+    let record = textureLoad(samples, stratum, 0);
+    var now = vec3(0.0);
+    var before = vec3(0.0);
+    if record.x != 0u {
+        now = unpack_rgb(textureLoad(radiance, sample_pixel(record, stratum), 0).xy);
+        before = unpack_rgb(textureLoad(radiance_previous, previous_pixel(record), 0).xy);
+    }
+    let l = luminance(now);
+    let l_before = luminance(before);
+    textureStore(now_out, stratum, vec4(now, l * l));
+    textureStore(before_out, stratum, vec4(before, l_before * l_before));
+    textureStore(product_out, stratum, vec4(l * l_before));
+}

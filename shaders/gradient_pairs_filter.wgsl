@@ -1,0 +1,52 @@
+// One à-trous iteration over the strata grid, on all channels of the pairs with the same weights.
+
+#import asvgf::frame::frame
+#import asvgf::strata_filter::{site, tap_weight, in_grid}
+
+@group(0) @binding(1) var<uniform> stride: i32;
+@group(0) @binding(2) var samples: texture_2d<u32>;
+@group(0) @binding(3) var now: texture_2d<f32>;
+@group(0) @binding(4) var before: texture_2d<f32>;
+@group(0) @binding(5) var product: texture_2d<f32>;
+@group(0) @binding(6) var now_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(7) var before_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(8) var product_out: texture_storage_2d<r32float, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= frame.strata) {
+        return;
+    }
+    let stratum = vec2<i32>(id.xy);
+    let record = textureLoad(samples, stratum, 0);
+    var sum_now = vec4(0.0);
+    var sum_before = vec4(0.0);
+    var sum_product = 0.0;
+    var weights = 0.0;
+    if record.x != 0u {
+        let center = site(record, stratum);
+        for (var y = -1; y <= 1; y++) {
+            for (var x = -1; x <= 1; x++) {
+                let offset = vec2(x, y);
+                let tap = stratum + offset * stride;
+                if !in_grid(tap) {
+                    continue;
+                }
+                let other = textureLoad(samples, tap, 0);
+                if other.x == 0u {
+                    continue;
+                }
+                let w = tap_weight(center, site(other, tap), offset, stride);
+                sum_now += w * textureLoad(now, tap, 0);
+                sum_before += w * textureLoad(before, tap, 0);
+                sum_product += w * textureLoad(product, tap, 0).x;
+                weights += w;
+            }
+        }
+    }
+    // The centre weighs 4 wherever there is a sample.
+    let scale = 1.0 / max(weights, 1.0);
+    textureStore(now_out, stratum, sum_now * scale);
+    textureStore(before_out, stratum, sum_before * scale);
+    textureStore(product_out, stratum, vec4(sum_product * scale));
+}

@@ -1,0 +1,23 @@
+#define_import_path asvgf::edge_stop
+
+#import asvgf::frame::{frame, direction, sample_point}
+
+// A pixel's tangent plane seen from the camera: n·(x − x_p) for a point x at depth z under pixel p + offset is
+// (slope.x + offset·slope.yz)·z − slope.x·z_p, as a ray's direction is affine in the pixel.
+struct Plane {
+    slope: vec3<f32>,
+    depth: f32,
+}
+
+fn tangent_plane(pixel: vec2<f32>, normal: vec3<f32>, depth: f32) -> Plane {
+    let c = frame.camera;
+    let d = direction(c, sample_point(c, pixel));
+    return Plane(vec3(dot(normal, d), dot(normal, c.du), dot(normal, c.dv)), depth);
+}
+
+// Distance of the other pixel's point from the plane: unlike a difference of depths it is 0 on the whole plane, at
+// whatever angle that is seen.
+fn plane_distance(plane: Plane, offset: vec2<f32>, depth: f32) -> f32 {
+    let along = plane.slope.x + offset.x * plane.slope.y + offset.y * plane.slope.z;
+    return abs(along * depth - plane.slope.x * plane.depth);
+}

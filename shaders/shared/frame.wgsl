@@ -1,0 +1,81 @@
+#define_import_path asvgf::frame
+
+// A perspective camera as the affine map from pixel to ray. `corner + x·du + y·dv` is the direction through the image
+// point (x, y) in pixels (x right, y down, the first pixel's centre at ½, ½), with unit component along `forward`: a
+// linear depth z puts the point at `eye + z·direction`.
+struct Camera {
+    eye: vec3<f32>,
+    // Where in its pixel a ray goes through the image, from the centre, in pixels.
+    jitter_x: f32,
+    forward: vec3<f32>,
+    jitter_y: f32,
+    corner: vec3<f32>,
+    du: vec3<f32>,
+    // 1 / |du|²
+    inverse_du: f32,
+    dv: vec3<f32>,
+    // 1 / |dv|²
+    inverse_dv: f32,
+}
+
+// One frame's constants. Mirrored by `FrameUniform` in src/gpu/frame.rs.
+struct Frame {
+    camera: Camera,
+    previous: Camera,
+    size: vec2<u32>,
+    // Strata of 3×3 pixels in each direction, the last one possibly cut.
+    strata: vec2<u32>,
+    index: u32,
+    seed: u32,
+    // 1 where there is history to reproject, 0 after a restart.
+    continued: u32,
+    // Samples per pixel.
+    samples: u32,
+    bounces: u32,
+    // First bounce at which Russian roulette may end a path.
+    roulette: u32,
+    // Lower bound of the weight of a new frame.
+    alpha: f32,
+    // Upper bound of the history length.
+    max_history: f32,
+    // History length is multiplied by (1 − λ)^history_power.
+    history_power: f32,
+    // γ of the gradient's normalisation A[Δ^(γ−1)|δ|] / A[Δ^γ].
+    gradient_gamma: f32,
+    sigma_luminance: f32,
+    sigma_depth: f32,
+    sigma_normal: f32,
+    // Ridge of the local linear fit.
+    ridge: f32,
+    ratio_limit: f32,
+    ratio_chroma_limit: f32,
+    ratio_prior: f32,
+    ratio_shrinkage: f32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+fn direction(camera: Camera, image_point: vec2<f32>) -> vec3<f32> {
+    return camera.corner + image_point.x * camera.du + image_point.y * camera.dv;
+}
+
+// The image point through which a pixel is sampled.
+fn sample_point(camera: Camera, pixel: vec2<f32>) -> vec2<f32> {
+    return pixel + 0.5 + vec2(camera.jitter_x, camera.jitter_y);
+}
+
+fn world_position(camera: Camera, image_point: vec2<f32>, depth: f32) -> vec3<f32> {
+    return camera.eye + depth * direction(camera, image_point);
+}
+
+// (x, y) in pixels and the linear depth of a world position; meaningless where the depth is not positive.
+fn project(camera: Camera, position: vec3<f32>) -> vec3<f32> {
+    let offset = position - camera.eye;
+    let depth = dot(offset, camera.forward);
+    let d = offset / depth - camera.corner;
+    return vec3(dot(d, camera.du) * camera.inverse_du, dot(d, camera.dv) * camera.inverse_dv, depth);
+}
+
+fn inside(pixel: vec2<i32>) -> bool {
+    return all(vec2<u32>(pixel) < frame.size);
+}

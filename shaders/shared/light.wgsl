@@ -1,0 +1,137 @@
+#define_import_path asvgf::light
+
+#import asvgf::scene::{scene, lights, texels, Light}
+#import asvgf::surface::{Visible, Triangle, triangle_now, at}
+#import asvgf::color::luminance
+#import asvgf::material::{PI, surface_at}
+
+// Light kinds, as in src/scene/upload.rs.
+const EMITTER: u32 = 0u;
+const POINT: u32 = 1u;
+const DIRECTIONAL: u32 = 2u;
+const ENVIRONMENT: u32 = 3u;
+
+// A way from a surface to a light.
+struct LightSample {
+    // Unit direction towards the light, and how far it is.
+    direction: vec3<f32>,
+    distance: f32,
+    // Radiance (or intensity over squared distance) that arrives.
+    radiance: vec3<f32>,
+    // Solid-angle density, the choice of the light included. For a light without area the choice alone.
+    density: f32,
+    // Whether a scattered ray could have found this light.
+    has_area: bool,
+}
+
+// The choice depends on `u` and the table alone. The table follows from nominal, not momentary, intensities, so that
+// switching one light leaves every other light's random numbers, and with them its gradient, as they were.
+fn choose_light(u: f32) -> u32 {
+    let scaled = u * f32(scene.light_count);
+    let entry = min(u32(scaled), scene.light_count - 1u);
+    return select(lights[entry].alias_index, entry, scaled - f32(entry) < lights[entry].threshold);
+}
+
+fn environment_texel(direction: vec3<f32>) -> u32 {
+    let u = 0.5 + atan2(direction.z, direction.x) / (2.0 * PI);
+    let v = acos(clamp(direction.y, -1.0, 1.0)) / PI;
+    let x = min(u32(clamp(u, 0.0, 1.0) * f32(scene.environment_width)), scene.environment_width - 1u);
+    let y = min(u32(v * f32(scene.environment_height)), scene.environment_height - 1u);
+    return y * scene.environment_width + x;
+}
+
+fn texel_radiance(texel: u32) -> vec3<f32> {
+    let i = scene.environment_texels + texel * 3u;
+    return vec3(bitcast<f32>(texels[i]), bitcast<f32>(texels[i + 1u]), bitcast<f32>(texels[i + 2u]));
+}
+
+fn environment_radiance(direction: vec3<f32>) -> vec3<f32> {
+#ifdef ENVIRONMENT_LIGHT
+    return texel_radiance(environment_texel(direction));
+#else
+    return vec3(0.0);
+#endif
+}
+
+fn environment_density(radiance: vec3<f32>) -> f32 {
+    return luminance(radiance) * scene.environment_density;
+}
+
+// Density with which `sample_light` finds this point of an emitter: choice · distance² / (area · cosine).
+fn emitter_density(light: u32, t: Triangle, direction: vec3<f32>, distance: f32) -> f32 {
+    let area_normal = 0.5 * cross(t.b - t.a, t.c - t.a);
+    return lights[light].pmf * distance * distance / max(abs(dot(area_normal, direction)), 1e-30);
+}
+
+#ifdef LIGHTS
+fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
+    let index = choose_light(choice);
+    let light = lights[index];
+    var s: LightSample;
+#ifdef EMITTERS
+    if light.kind == EMITTER {
+        let v = Visible(light.triangle, light.instance);
+        let t = triangle_now(v);
+        // Uniform over the triangle.
+        let r = sqrt(u.x);
+        let weights = vec2(r * (1.0 - u.y), r * u.y);
+        let way = at(t, weights) - position;
+        let squared = max(dot(way, way), 1e-30);
+        s.distance = sqrt(squared);
+        s.direction = way / s.distance;
+        s.radiance = surface_at(v, t, weights, s.direction).emission;
+        s.density = emitter_density(index, t, s.direction, s.distance);
+        s.has_area = true;
+        return s;
+    }
+#endif
+#ifdef ENVIRONMENT_LIGHT
+    if light.kind == ENVIRONMENT {
+        // Alias table over texels, then uniform in solid angle within the texel.
+        let count = scene.environment_width * scene.environment_height;
+        let scaled = u.x * f32(count);
+        let entry = min(u32(scaled), count - 1u);
+        let i = scene.environment_alias + entry * 2u;
+        let within = scaled - f32(entry);
+        let threshold = bitcast<f32>(texels[i]);
+        let kept = within < threshold;
+        let texel = select(texels[i + 1u], entry, kept);
+        // The rest of the number is as good as new.
+        let rest = select((within - threshold) / max(1.0 - threshold, 1e-9), within / max(threshold, 1e-9), kept);
+        let x = f32(texel % scene.environment_width) + clamp(rest, 0.0, 0.999999);
+        let row = texel / scene.environment_width;
+        let low = cos(PI * f32(row) / f32(scene.environment_height));
+        let high = cos(PI * f32(row + 1u) / f32(scene.environment_height));
+        let y = mix(low, high, u.y);
+        let azimuth = (x / f32(scene.environment_width) - 0.5) * 2.0 * PI;
+        let radius = sqrt(max(1.0 - y * y, 0.0));
+        s.direction = vec3(radius * cos(azimuth), y, radius * sin(azimuth));
+        s.distance = 1e30;
+        s.radiance = texel_radiance(texel);
+        s.density = environment_density(s.radiance);
+        s.has_area = true;
+        return s;
+    }
+#endif
+#ifdef PUNCTUAL_LIGHTS
+    // KHR_lights_punctual: inverse square with a smooth end at the range, times the cone's falloff.
+    s.has_area = false;
+    s.density = light.pmf;
+    if light.kind == DIRECTIONAL {
+        s.direction = -light.axis;
+        s.distance = 1e30;
+        s.radiance = light.intensity;
+        return s;
+    }
+    let way = light.position - position;
+    let squared = max(dot(way, way), 1e-30);
+    s.distance = sqrt(squared);
+    s.direction = way / s.distance;
+    let ratio = s.distance / light.range;
+    let fade = clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
+    let cone = clamp(-dot(light.axis, s.direction) * light.spot_scale + light.spot_offset, 0.0, 1.0);
+    s.radiance = light.intensity * (fade * cone * cone / squared);
+#endif
+    return s;
+}
+#endif

@@ -1,0 +1,186 @@
+#define_import_path asvgf::material
+
+#import asvgf::scene::{materials, triangles, TWO_SIDED_EMITTER, UNLIT}
+#import asvgf::surface::{Visible, Triangle, at, geometric_normal, shading_normal, is_front}
+#import asvgf::color::luminance
+#import asvgf::packing::round_to_f16
+#ifdef TEXTURES
+#import asvgf::texture::{sample_texture, exists}
+#endif
+
+const PI: f32 = 3.14159265358979;
+
+// A point that light meets, with all that its scattering depends on.
+struct Surface {
+    position: vec3<f32>,
+    geometric: vec3<f32>,
+    normal: vec3<f32>,
+    // Unit vector towards where the ray came from.
+    view: vec3<f32>,
+    diffuse: vec3<f32>,
+    emission: vec3<f32>,
+#ifdef SPECULAR
+    // Reflectance at normal incidence.
+    reflectance: vec3<f32>,
+    // GGX width, the square of the perceptual roughness.
+    alpha: f32,
+#endif
+}
+
+fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f32>) -> Surface {
+    let m = bitcast<u32>(triangles[v.row * 3u].w);
+    var base = materials[m].base_color.xyz;
+    var emission = materials[m].emissive;
+    var metallic = materials[m].metallic;
+    var roughness = materials[m].roughness;
+#ifdef TEXTURES
+    let base_texture = materials[m].base_color_texture;
+    if exists(base_texture) {
+        base *= sample_texture(base_texture, v.row, weights, true).xyz;
+    }
+    let emissive_texture = materials[m].emissive_texture;
+    if exists(emissive_texture) {
+        emission *= sample_texture(emissive_texture, v.row, weights, true).xyz;
+    }
+#ifdef SPECULAR
+    let metallic_roughness_texture = materials[m].metallic_roughness_texture;
+    if exists(metallic_roughness_texture) {
+        let texel = sample_texture(metallic_roughness_texture, v.row, weights, false);
+        roughness *= texel.y;
+        metallic *= texel.z;
+    }
+#endif
+#endif
+    let flags = materials[m].flags;
+    if (flags & TWO_SIDED_EMITTER) == 0u && !is_front(t, v, ray_direction) {
+        emission = vec3(0.0);
+    }
+    if (flags & UNLIT) != 0u {
+        emission = base;
+        base = vec3(0.0);
+    }
+    var s: Surface;
+    s.position = at(t, weights);
+    s.geometric = geometric_normal(t, ray_direction);
+    s.normal = shading_normal(v, weights, s.geometric);
+    s.view = -normalize(ray_direction);
+    s.emission = emission;
+#ifdef SPECULAR
+    s.diffuse = base * (1.0 - metallic);
+    s.reflectance = mix(vec3(materials[m].specular), base, metallic) * select(1.0, 0.0, (flags & UNLIT) != 0u);
+    // Below this width a lobe is narrower than a float resolves.
+    s.alpha = max(roughness * roughness, 1e-3);
+#else
+    s.diffuse = base;
+#endif
+    return s;
+}
+
+// What the filtered radiance is divided by, and multiplied with again at the end: the reflectance of the surface, floored so
+// that the quotient stays bounded, as the f16 texture between keeps it.
+fn demodulation(s: Surface) -> vec3<f32> {
+#ifdef SPECULAR
+    let reflectance = s.diffuse + s.reflectance;
+#else
+    let reflectance = s.diffuse;
+#endif
+    return round_to_f16(clamp(reflectance, vec3(1e-3), vec3(1.0)));
+}
+
+#ifdef SPECULAR
+fn fresnel(f0: vec3<f32>, cosine: f32) -> vec3<f32> {
+    // Schlick 1994; without a mirror reflectance there is no grazing reflectance either.
+    let grazing = clamp(50.0 * max(max(f0.x, f0.y), f0.z), 0.0, 1.0);
+    let k = clamp(1.0 - cosine, 0.0, 1.0);
+    let k2 = k * k;
+    return f0 + (vec3(grazing) - f0) * (k2 * k2 * k);
+}
+
+// GGX normal distribution (Walter et al. 2007, eq. 33).
+fn distribution(cosine: f32, alpha: f32) -> f32 {
+    let a2 = alpha * alpha;
+    let d = cosine * cosine * (a2 - 1.0) + 1.0;
+    return a2 / (PI * d * d);
+}
+
+// Smith's Λ for GGX (Heitz 2014, eq. 72).
+fn smith(cosine: f32, alpha: f32) -> f32 {
+    let c2 = cosine * cosine;
+    return 0.5 * (sqrt(1.0 + alpha * alpha * max(1.0 - c2, 0.0) / max(c2, 1e-12)) - 1.0);
+}
+
+// Probability with which the specular lobe is sampled.
+fn specular_share(s: Surface) -> f32 {
+    let specular = luminance(fresnel(s.reflectance, max(dot(s.normal, s.view), 0.0)));
+    let diffuse = luminance(s.diffuse);
+    if specular <= 0.0 {
+        return 0.0;
+    }
+    if diffuse <= 0.0 {
+        return 1.0;
+    }
+    return clamp(specular / (specular + diffuse), 0.1, 0.9);
+}
+#endif
+
+struct Scattering {
+    // BSDF times cosine.
+    value: vec3<f32>,
+    // Solid-angle density with which `sample_direction` returns this direction.
+    density: f32,
+}
+
+fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
+    let cosine = dot(s.normal, light);
+    // Light must arrive above the true surface as well as above the interpolated one.
+    if cosine <= 0.0 || dot(s.geometric, light) <= 0.0 {
+        return Scattering(vec3(0.0), 0.0);
+    }
+#ifdef SPECULAR
+    let share = specular_share(s);
+    let half_vector = normalize(s.view + light);
+    let nv = max(dot(s.normal, s.view), 1e-4);
+    let nh = clamp(dot(s.normal, half_vector), 0.0, 1.0);
+    let f = fresnel(s.reflectance, dot(s.view, half_vector));
+    let d = distribution(nh, s.alpha);
+    let lambda_view = smith(nv, s.alpha);
+    // f·D·G₂ / (4 n·v n·l), with the cosine n·l already cancelled.
+    let specular = f * d / (4.0 * nv * (1.0 + lambda_view + smith(cosine, s.alpha)));
+    let value = s.diffuse * (1.0 - f) * (cosine / PI) + specular;
+    // Density of visible normals (Heitz 2018, eq. 3) times the Jacobian 1 / (4 v·h).
+    let visible = d / (4.0 * nv * (1.0 + lambda_view));
+    return Scattering(value, mix(cosine / PI, visible, share));
+#else
+    return Scattering(s.diffuse * (cosine / PI), cosine / PI);
+#endif
+}
+
+// Tangents of a unit normal (Duff et al. 2017).
+fn tangents(n: vec3<f32>) -> mat2x3<f32> {
+    let sign = select(-1.0, 1.0, n.z >= 0.0);
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    return mat2x3(vec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y));
+}
+
+// A direction by the density of `scattering`: cosine-weighted, or about a visible normal of the GGX distribution.
+fn sample_direction(s: Surface, u: vec2<f32>, choice: f32) -> vec3<f32> {
+    let t = tangents(s.normal);
+    let angle = 2.0 * PI * u.x;
+#ifdef SPECULAR
+    if choice < specular_share(s) {
+        // Spherical caps (Dupuy and Benyoub 2023).
+        let v = vec3(dot(s.view, t[0]), dot(s.view, t[1]), max(dot(s.view, s.normal), 1e-4));
+        let stretched = normalize(vec3(v.xy * s.alpha, v.z));
+        let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
+        let r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+        let h = vec3(r * cos(angle), r * sin(angle), z) + stretched;
+        let m = normalize(vec3(h.xy * s.alpha, h.z));
+        let normal = t[0] * m.x + t[1] * m.y + s.normal * m.z;
+        return normalize(2.0 * dot(s.view, normal) * normal - s.view);
+    }
+#endif
+    let r = sqrt(u.y);
+    let z = sqrt(max(1.0 - u.y, 0.0));
+    return normalize(t[0] * (r * cos(angle)) + t[1] * (r * sin(angle)) + s.normal * z);
+}

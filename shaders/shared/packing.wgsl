@@ -1,0 +1,70 @@
+#define_import_path asvgf::packing
+
+// Three non-negative floats in 62 bits: a common 8-bit exponent and 18-bit mantissas. The range is that of f32 (steps of
+// 2⁻¹²⁶ … values of 2¹²⁶) and the largest channel is exact to 2⁻¹⁸: a running average of weight 1/n goes on moving until
+// the difference is n·2⁻¹⁸, where one stored in f16 stalls 2⁷ times earlier, and overflows at 65504.
+// After the RGB9E5 format of EXT_texture_shared_exponent, with more of both.
+fn pack_rgb(color: vec3<f32>) -> vec2<u32> {
+    let largest = max(max(color.x, color.y), color.z);
+    // The largest channel is below 2^(exponent − 127), read from its bits.
+    let exponent = clamp(i32(bitcast<u32>(largest) >> 23u) + 1, 19, 253);
+    let up = bitcast<f32>(u32(254 - exponent) << 23u) * 262144.0;
+    let mantissa = vec3<u32>(clamp(color * up + 0.5, vec3(0.0), vec3(262143.0)));
+    return vec2(
+        mantissa.x | (mantissa.y << 18u),
+        (mantissa.y >> 14u) | (mantissa.z << 4u) | (u32(exponent) << 22u),
+    );
+}
+
+fn unpack_rgb(bits: vec2<u32>) -> vec3<f32> {
+    let down = bitcast<f32>((bits.y >> 22u) << 23u) * (1.0 / 262144.0);
+    return down * vec3(
+        f32(bits.x & 0x3ffffu),
+        f32((bits.x >> 18u) | ((bits.y & 0xfu) << 14u)),
+        f32((bits.y >> 4u) & 0x3ffffu),
+    );
+}
+
+// A unit vector as three signed 10-bit numbers (0.06° at worst). Unlike an octahedral map it needs no normalisation and
+// no branch to read back, and the à-trous filter reads it 52 times per pixel.
+fn pack_normal(n: vec3<f32>) -> u32 {
+    let q = vec3<i32>(round(clamp(n, vec3(-1.0), vec3(1.0)) * 511.0)) & vec3(0x3ff);
+    return u32(q.x | (q.y << 10u) | (q.z << 20u));
+}
+
+// The packed normal times 511.
+fn unpack_normal_511(bits: u32) -> vec3<f32> {
+    let b = i32(bits);
+    return vec3<f32>(vec3((b << 22u) >> 22u, (b << 12u) >> 22u, (b << 2u) >> 22u));
+}
+
+fn unpack_normal(bits: u32) -> vec3<f32> {
+    return unpack_normal_511(bits) * (1.0 / 511.0);
+}
+
+// A unit vector as two 16-bit numbers on the unfolded octahedron (Meyer et al. 2010, "On Floating-Point Normal Vectors").
+fn unpack_octahedral(bits: u32) -> vec3<f32> {
+    let e = vec2(f32(bits & 0xffffu), f32(bits >> 16u)) * (2.0 / 65535.0) - 1.0;
+    let z = 1.0 - abs(e.x) - abs(e.y);
+    let fold = max(-z, 0.0);
+    return normalize(vec3(e - select(vec2(-fold), vec2(fold), e >= vec2(0.0)), z));
+}
+
+// The nearest numbers with the 10-bit mantissa of f16, for values of f16's normal range: an rgba16float texture then holds
+// them exactly. (WebGPU's core has pack2x16float, but some drivers behind wgpu do not.)
+fn round_to_f16(x: vec3<f32>) -> vec3<f32> {
+    return bitcast<vec3<f32>>((bitcast<vec3<u32>>(x) + 0x1000u) & vec3(0xffffe000u));
+}
+
+// History length (15-bit mantissa: exact beyond 30 000 frames) and λ (8 bits, rounded up so that 0 means exactly 0).
+fn pack_length_lambda(length: f32, lambda: f32) -> u32 {
+    return (bitcast<u32>(length) & 0xffffff00u) | u32(ceil(clamp(lambda, 0.0, 1.0) * 255.0));
+}
+
+fn unpack_length(bits: u32) -> f32 {
+    return bitcast<f32>(bits & 0xffffff00u);
+}
+
+fn unpack_lambda(bits: u32) -> f32 {
+    return f32(bits & 0xffu) * (1.0 / 255.0);
+}

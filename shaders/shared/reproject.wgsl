@@ -1,0 +1,33 @@
+#define_import_path asvgf::reproject
+
+#import asvgf::frame::{frame, world_position, sample_point, inside}
+#import asvgf::packing::unpack_normal
+
+// A point of this frame as it was in the previous frame.
+struct Origin {
+    // Where it was, in world space, and its normal.
+    position: vec3<f32>,
+    normal: vec3<f32>,
+    object: u32,
+}
+
+// The same surface point, or a near neighbour of it on the same surface? The instance alone would accept a surface that
+// reappears from behind itself; the plane distance works at grazing angles, where a difference of depths does not.
+// Thresholds: 1 % of the depth off the plane, 5 % of it away (beyond, taps of one pixel cannot be meant), 26° (0.9).
+fn same_surface(origin: Origin, tap: vec2<i32>, guide: vec2<u32>, object: u32) -> bool {
+    let depth = bitcast<f32>(guide.y);
+    if depth <= 0.0 || object != origin.object {
+        return false;
+    }
+    let normal = unpack_normal(guide.x);
+    let offset = origin.position
+        - world_position(frame.previous, sample_point(frame.previous, vec2<f32>(tap)), depth);
+    return abs(dot(normal, offset)) <= 0.01 * depth
+        && dot(offset, offset) <= 0.0025 * depth * depth
+        && dot(normal, origin.normal) >= 0.9;
+}
+
+fn origin_of(pixel: vec2<f32>, motion: vec3<f32>, normal: vec3<f32>, object: u32) -> Origin {
+    let point = sample_point(frame.camera, pixel) + motion.xy;
+    return Origin(world_position(frame.previous, point, motion.z), normal, object);
+}

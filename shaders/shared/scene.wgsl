@@ -1,0 +1,136 @@
+#define_import_path asvgf::scene
+
+// The scene as src/scene/upload.rs lays it out: the visibility lookup table of triangle vertices, the BVH that obvhs
+// builds, placements for this and the previous frame, surfaces and lights.
+
+struct Scene {
+    // Node of the top-level tree's root and, after the nodes, the first instance record, both in vec4s.
+    instances: u32,
+    instance_count: u32,
+    light_count: u32,
+    // Light index of the environment, or 0xffffffff.
+    environment_light: u32,
+    environment_texels: u32,
+    environment_alias: u32,
+    environment_width: u32,
+    environment_height: u32,
+    // Words per triangle in `attributes`, and where the two sets of texture coordinates begin in them.
+    attribute_stride: u32,
+    uv_first: u32,
+    uv_second: u32,
+    // Solid-angle density of sampling a direction through the environment light, per unit of its luminance there.
+    environment_density: f32,
+}
+
+@group(1) @binding(0) var<uniform> scene: Scene;
+// Bottom-level trees: four vec4 per node, see traverse.wgsl.
+@group(1) @binding(1) var<storage, read> nodes: array<vec4<f32>>;
+// The visibility lookup table: three vec4 per triangle, a vertex and one word each: material, emitter number + 1, unused.
+@group(1) @binding(2) var<storage, read> triangles: array<vec4<f32>>;
+// Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates.
+@group(1) @binding(3) var<storage, read> attributes: array<u32>;
+// Top-level tree, then ten vec4 per instance.
+@group(1) @binding(4) var<storage, read> instances: array<vec4<f32>>;
+@group(1) @binding(5) var<storage, read> materials: array<Material>;
+@group(1) @binding(6) var<storage, read> lights: array<Light>;
+// RGBA8 texels of all images; the environment's radiances and alias table as f32 bits.
+@group(1) @binding(7) var<storage, read> texels: array<u32>;
+
+struct TextureUse {
+    // First texel in `texels`.
+    first: u32,
+    width: u32,
+    height: u32,
+    // Bits 0–1 and 2–3: wrap of u and of v (0 repeat, 1 mirror, 2 clamp). Bit 4: nearest. Bit 5: second uv set.
+    // Bit 31: there is a texture.
+    mode: u32,
+    row_u: vec4<f32>,
+    row_v: vec4<f32>,
+}
+
+struct Material {
+    base_color: vec4<f32>,
+    emissive: vec3<f32>,
+    // Bit 0: emits from both faces. Bit 1: unlit.
+    flags: u32,
+    metallic: f32,
+    roughness: f32,
+    // Reflectance of the dielectric coat at normal incidence.
+    specular: f32,
+    // Opacity below which a point does not exist; 0 keeps all.
+    cutoff: f32,
+    base_color_texture: TextureUse,
+    metallic_roughness_texture: TextureUse,
+    emissive_texture: TextureUse,
+}
+
+const TWO_SIDED_EMITTER: u32 = 1u;
+const UNLIT: u32 = 2u;
+
+struct Light {
+    // See light.wgsl.
+    kind: u32,
+    // Alias table over all lights (Walker 1974, Vose 1991): keep this entry below `threshold`, else take `alias_index`.
+    alias_index: u32,
+    threshold: f32,
+    // Probability of choosing this light.
+    pmf: f32,
+    position: vec3<f32>,
+    // Triangle of an emitter (u32 bits).
+    triangle: u32,
+    axis: vec3<f32>,
+    // Instance of an emitter (u32 bits).
+    instance: u32,
+    intensity: vec3<f32>,
+    range: f32,
+    // Scale and offset of the spot's angular falloff.
+    spot_scale: f32,
+    spot_offset: f32,
+    _pad_a: u32,
+    _pad_b: u32,
+}
+
+const NO_TRIANGLE: u32 = 0xffffffffu;
+
+// An affine map as three rows.
+struct Placement {
+    x: vec4<f32>,
+    y: vec4<f32>,
+    z: vec4<f32>,
+}
+
+fn transform_point(m: Placement, p: vec3<f32>) -> vec3<f32> {
+    return vec3(dot(m.x.xyz, p) + m.x.w, dot(m.y.xyz, p) + m.y.w, dot(m.z.xyz, p) + m.z.w);
+}
+
+fn transform_vector(m: Placement, v: vec3<f32>) -> vec3<f32> {
+    return vec3(dot(m.x.xyz, v), dot(m.y.xyz, v), dot(m.z.xyz, v));
+}
+
+// The transpose applied to a covector: a normal goes from object to world by the inverse's transpose.
+fn transform_normal(inverse: Placement, n: vec3<f32>) -> vec3<f32> {
+    return inverse.x.xyz * n.x + inverse.y.xyz * n.y + inverse.z.xyz * n.z;
+}
+
+fn instance_record(instance: u32, part: u32) -> Placement {
+    let first = scene.instances + instance * 10u + part * 3u;
+    return Placement(instances[first], instances[first + 1u], instances[first + 2u]);
+}
+
+fn object_to_world(instance: u32) -> Placement {
+    return instance_record(instance, 0u);
+}
+
+fn world_to_object(instance: u32) -> Placement {
+    return instance_record(instance, 1u);
+}
+
+fn previous_object_to_world(instance: u32) -> Placement {
+    return instance_record(instance, 2u);
+}
+
+// Root node of the mesh's tree; the instance's first number in the visibility buffer; its first light; its mesh's first row
+// of the lookup table, doubled, plus 1 where the placement mirrors.
+fn instance_numbers(instance: u32) -> vec4<u32> {
+    return bitcast<vec4<u32>>(instances[scene.instances + instance * 10u + 9u]);
+}

@@ -1,0 +1,46 @@
+#define_import_path asvgf::strata_filter
+
+#import asvgf::frame::{frame, world_position, sample_point}
+#import asvgf::packing::unpack_normal
+#import asvgf::strata::sample_pixel
+
+// Where a stratum's sample lies, from its record.
+struct Site {
+    position: vec3<f32>,
+    normal: vec3<f32>,
+    depth: f32,
+}
+
+fn site(record: vec4<u32>, stratum: vec2<i32>) -> Site {
+    let depth = bitcast<f32>(record.w);
+    let point = sample_point(frame.camera, vec2<f32>(sample_pixel(record, stratum)));
+    return Site(world_position(frame.camera, point, depth), unpack_normal(record.z), depth);
+}
+
+// Beyond this exponent a weight counts as 0.
+const CUT: f32 = 8.0;
+
+// Exponent of the geometric weight between strata, and between a pixel and a stratum: distance from the plane in
+// parts of `reach`, and angle of the normals.
+fn geometric_exponent(normal: vec3<f32>, offset: vec3<f32>, other_normal: vec3<f32>, reach: f32) -> f32 {
+    return abs(dot(normal, offset)) / reach + 32.0 * (1.0 - dot(normal, other_normal));
+}
+
+// Tolerated distance from the plane, in parts of the depth.
+const PLANE: f32 = 0.02;
+
+// Weight of one tap of the à-trous filter on the strata grid: a tent on 3×3 taps times the geometric weight.
+fn tap_weight(center: Site, other: Site, offset: vec2<i32>, stride: i32) -> f32 {
+    let exponent = geometric_exponent(
+        center.normal,
+        other.position - center.position,
+        other.normal,
+        PLANE * center.depth * f32(stride),
+    );
+    let tent = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+    return select(tent * exp(-exponent), 0.0, exponent > CUT);
+}
+
+fn in_grid(stratum: vec2<i32>) -> bool {
+    return all(vec2<u32>(stratum) < frame.strata);
+}

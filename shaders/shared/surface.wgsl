@@ -1,0 +1,146 @@
+#define_import_path asvgf::surface
+
+#import asvgf::scene::{scene, triangles, attributes, instances, materials, Placement, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, NO_TRIANGLE}
+#import asvgf::packing::unpack_octahedral
+
+// A point of the scene as the visibility buffer names it.
+struct Visible {
+    // Row of the visibility lookup table, and whose it is.
+    row: u32,
+    instance: u32,
+}
+
+// The visibility buffer numbers the triangles of all instances in one sequence.
+fn visible(id: u32) -> Visible {
+#ifdef INSTANCED
+    // The last instance whose first number is not above `id`.
+    var low = 0u;
+    var high = scene.instance_count;
+    for (var i = 0u; i < 32u && high - low > 1u; i++) {
+        let middle = (low + high) / 2u;
+        if bitcast<u32>(instances[scene.instances + middle * 10u + 9u].y) <= id {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let numbers = instance_numbers(low);
+    return Visible(id - numbers.y + (numbers.w >> 1u), low);
+#else
+    return Visible(id, 0u);
+#endif
+}
+
+fn visibility_id(row: u32, instance: u32) -> u32 {
+#ifdef INSTANCED
+    let numbers = instance_numbers(instance);
+    return row - (numbers.w >> 1u) + numbers.y;
+#else
+    return row;
+#endif
+}
+
+struct Triangle {
+    a: vec3<f32>,
+    b: vec3<f32>,
+    c: vec3<f32>,
+}
+
+// World-space vertices in this frame, from the lookup table.
+fn triangle_now(v: Visible) -> Triangle {
+    let t = Triangle(triangles[v.row * 3u].xyz, triangles[v.row * 3u + 1u].xyz, triangles[v.row * 3u + 2u].xyz);
+#ifdef INSTANCED
+    let m = object_to_world(v.instance);
+    return Triangle(transform_point(m, t.a), transform_point(m, t.b), transform_point(m, t.c));
+#else
+    return t;
+#endif
+}
+
+// World-space vertices in the previous frame.
+fn triangle_before(v: Visible) -> Triangle {
+#ifdef INSTANCED
+    let t = Triangle(triangles[v.row * 3u].xyz, triangles[v.row * 3u + 1u].xyz, triangles[v.row * 3u + 2u].xyz);
+    let m = previous_object_to_world(v.instance);
+    return Triangle(transform_point(m, t.a), transform_point(m, t.b), transform_point(m, t.c));
+#else
+    return triangle_now(v);
+#endif
+}
+
+// Barycentric weights of `b` and `c` at the point where a ray meets the triangle's plane, as ratios of areas: each weight
+// is the area of the triangle that the point forms with the opposite edge, over the whole.
+fn barycentrics(t: Triangle, origin: vec3<f32>, direction: vec3<f32>) -> vec2<f32> {
+    let normal = cross(t.b - t.a, t.c - t.a);
+    let squared_area = dot(normal, normal);
+    let slope = dot(normal, direction);
+    if squared_area <= 0.0 || slope == 0.0 {
+        return vec2(0.0);
+    }
+    let p = origin + direction * (dot(normal, t.a - origin) / slope);
+    let weight_b = dot(cross(t.a - t.c, p - t.c), normal) / squared_area;
+    let weight_c = dot(cross(t.b - t.a, p - t.a), normal) / squared_area;
+    // The ray did hit this triangle; outside it there is only rounding.
+    let b = clamp(weight_b, 0.0, 1.0);
+    return vec2(b, clamp(weight_c, 0.0, 1.0 - b));
+}
+
+fn at(t: Triangle, weights: vec2<f32>) -> vec3<f32> {
+    return t.a + weights.x * (t.b - t.a) + weights.y * (t.c - t.a);
+}
+
+// Unit normal of the side from which `direction` arrives; opposes the direction for a degenerate triangle.
+fn geometric_normal(t: Triangle, direction: vec3<f32>) -> vec3<f32> {
+    let n = cross(t.b - t.a, t.c - t.a);
+    let squared = dot(n, n);
+    if squared <= 0.0 {
+        return -normalize(direction);
+    }
+    let unit = n * inverseSqrt(squared);
+    return select(unit, -unit, dot(unit, direction) > 0.0);
+}
+
+// Whether a ray in this direction meets the front face (counter-clockwise in the mesh's own orientation).
+fn is_front(t: Triangle, v: Visible, direction: vec3<f32>) -> bool {
+    var front = dot(cross(t.b - t.a, t.c - t.a), direction) < 0.0;
+#ifdef INSTANCED
+    // A mirroring placement turns the winding over.
+    if (instance_numbers(v.instance).w & 1u) != 0u {
+        front = !front;
+    }
+#endif
+    return front;
+}
+
+// Interpolated normal, on the side of `geometric`; that normal itself where the mesh has none.
+fn shading_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
+#ifdef SHADING_NORMALS
+    let first = v.row * scene.attribute_stride;
+    if attributes[first] == 0u {
+        return geometric;
+    }
+    let a = unpack_octahedral(attributes[first]);
+    let b = unpack_octahedral(attributes[first + 1u]);
+    let c = unpack_octahedral(attributes[first + 2u]);
+    var n = a + weights.x * (b - a) + weights.y * (c - a);
+#ifdef INSTANCED
+    n = transform_normal(world_to_object(v.instance), n);
+#endif
+    let squared = dot(n, n);
+    if squared <= 1e-12 {
+        return geometric;
+    }
+    n *= inverseSqrt(squared);
+    return select(n, -n, dot(n, geometric) < 0.0);
+#else
+    return geometric;
+#endif
+}
+
+// Moves a ray's origin off its surface by a few ulp, in integers, so that it works at every scale
+// (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems 2019, ch. 6).
+fn offset_origin(p: vec3<f32>, n: vec3<f32>) -> vec3<f32> {
+    let steps = vec3<i32>(256.0 * n);
+    let moved = bitcast<vec3<f32>>(bitcast<vec3<i32>>(p) + select(steps, -steps, p < vec3(0.0)));
+    return select(moved, p + n * (1.0 / 65536.0), abs(p) < vec3(1.0 / 32.0));
+}

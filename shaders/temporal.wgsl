@@ -1,0 +1,263 @@
+// Reprojects the history and blends this frame into it: a running average of 1/n that the temporal gradient shortens.
+//
+// History per pixel: colour (62 bits), variance of a sample's luminance (f32), history length n and λ. The mean luminance is
+// that of the colour, unless the colour is fed from the spatial filter (FEEDBACK): then it takes the colour's place.
+
+#import asvgf::frame::{frame, inside}
+#import asvgf::color::luminance
+#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_length_lambda, unpack_length}
+#import asvgf::reproject::{Origin, origin_of, same_surface}
+#ifdef GRADIENT
+#import asvgf::frame::{world_position, sample_point}
+#import asvgf::strata::is_sample_pixel
+#import asvgf::strata_filter::{site, geometric_exponent, in_grid, CUT, PLANE}
+#endif
+
+@group(0) @binding(1) var guide: texture_2d<u32>;
+@group(0) @binding(2) var guide_previous: texture_2d<u32>;
+@group(0) @binding(3) var motion: texture_2d<f32>;
+#ifdef OBJECTS
+@group(0) @binding(4) var object: texture_2d<u32>;
+@group(0) @binding(5) var object_previous: texture_2d<u32>;
+#endif
+@group(0) @binding(6) var radiance: texture_2d<u32>;
+@group(0) @binding(7) var history_previous: texture_2d<u32>;
+#ifdef FEEDBACK
+@group(0) @binding(8) var feedback_previous: texture_2d<u32>;
+@group(0) @binding(9) var feedback_out: texture_storage_2d<rg32uint, write>;
+#endif
+#ifdef GRADIENT
+@group(0) @binding(10) var samples: texture_2d<u32>;
+@group(0) @binding(11) var gradient: texture_2d<f32>;
+#ifdef HISTORY_RATIO
+@group(0) @binding(12) var ratio: texture_2d<f32>;
+#endif
+#endif
+@group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
+// Colour and the variance that steers the spatial filter.
+@group(0) @binding(14) var color_out: texture_storage_2d<rgba32float, write>;
+#ifdef PREFILTER
+@group(0) @binding(15) var luminance_out: texture_storage_2d<r32float, write>;
+#endif
+
+struct History {
+    color: vec3<f32>,
+    mean: f32,
+    variance: f32,
+    length: f32,
+    // Sum of the weights of the taps that were accepted.
+    weight: f32,
+}
+
+struct Taps {
+    color: vec3<f32>,
+    mean: f32,
+    square: f32,
+    variance: f32,
+    length: f32,
+    weight: f32,
+}
+
+fn add_tap(sum: ptr<function, Taps>, origin: Origin, tap: vec2<i32>, weight: f32) {
+    if weight < 1e-4 || !inside(tap) {
+        return;
+    }
+#ifdef OBJECTS
+    let there = textureLoad(object_previous, tap, 0).x;
+#else
+    let there = 0u;
+#endif
+    if !same_surface(origin, tap, textureLoad(guide_previous, tap, 0).xy, there) {
+        return;
+    }
+    let h = textureLoad(history_previous, tap, 0);
+#ifdef FEEDBACK
+    let color = unpack_rgb(textureLoad(feedback_previous, tap, 0).xy);
+    let mean = bitcast<f32>(h.x);
+#else
+    let color = unpack_rgb(h.xy);
+    let mean = luminance(color);
+#endif
+    (*sum).color += weight * color;
+    (*sum).mean += weight * mean;
+    (*sum).square += weight * mean * mean;
+    (*sum).variance += weight * bitcast<f32>(h.z);
+    (*sum).length += weight * unpack_length(h.w);
+    (*sum).weight += weight;
+}
+
+fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin) -> History {
+    let point = clamp(vec2<f32>(pixel) + m.xy, vec2(-1e6), vec2(1e6));
+    let corner = floor(point + 1e-4);
+    let f = max(point - corner, vec2(0.0));
+    let base = vec2<i32>(corner);
+    var sum = Taps(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0.0);
+    add_tap(&sum, origin, base, (1.0 - f.x) * (1.0 - f.y));
+    add_tap(&sum, origin, base + vec2(1, 0), f.x * (1.0 - f.y));
+    add_tap(&sum, origin, base + vec2(0, 1), (1.0 - f.x) * f.y);
+    add_tap(&sum, origin, base + vec2(1, 1), f.x * f.y);
+    if sum.weight <= 0.01 {
+        // Nothing of the surface under the 2×2 taps: look one pixel farther.
+        sum = Taps(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0.0);
+        for (var y = -1; y <= 2; y++) {
+            for (var x = -1; x <= 2; x++) {
+                let tap = base + vec2(x, y);
+                let d = vec2<f32>(tap) - point;
+                add_tap(&sum, origin, tap, exp(-dot(d, d)));
+            }
+        }
+    }
+    if sum.weight <= 0.01 {
+        return History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    }
+    let scale = 1.0 / sum.weight;
+    let mean = sum.mean * scale;
+    // The taps' own variances and the spread of their means.
+    let variance = sum.variance * scale + max(sum.square * scale - mean * mean, 0.0);
+    return History(sum.color * scale, mean, variance, sum.length * scale, sum.weight);
+}
+
+#ifdef GRADIENT
+struct Change {
+    ratio: vec4<f32>,
+    lambda: f32,
+}
+
+// Bilinear interpolation of the strata around a pixel, on the same surface; no change where there is none.
+fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32) -> Change {
+    let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
+    let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;
+    let base = vec2<i32>(floor(grid));
+    var sum = Change(vec4(0.0), 0.0);
+    var weights = 0.0;
+    // The 2×2 nearest strata, else the 4×4.
+    for (var ring = 0; ring < 2 && weights <= 1e-4; ring++) {
+        for (var y = -ring; y <= 1 + ring; y++) {
+            for (var x = -ring; x <= 1 + ring; x++) {
+                let stratum = base + vec2(x, y);
+                if !in_grid(stratum) {
+                    continue;
+                }
+                let record = textureLoad(samples, stratum, 0);
+                if record.x == 0u {
+                    continue;
+                }
+                let s = site(record, stratum);
+                let exponent = geometric_exponent(normal, s.position - here, s.normal, PLANE * depth);
+                if exponent > CUT {
+                    continue;
+                }
+                let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
+                let w = tent.x * tent.y * exp(-exponent);
+                let g = textureLoad(gradient, stratum, 0).xy;
+                sum.lambda += w * clamp(g.x / max(g.y, 1e-30), 0.0, 1.0);
+#ifdef HISTORY_RATIO
+                sum.ratio += w * (textureLoad(ratio, stratum, 0) - 1.0);
+#endif
+                weights += w;
+            }
+        }
+    }
+    let scale = select(0.0, 1.0 / weights, weights > 0.0);
+    // Interpolated as differences from 1, so that a ratio of exactly 1 stays so; λ may not exceed 1 by an ulp, as
+    // (1 − λ)^k would then be NaN.
+    return Change(1.0 + sum.ratio * scale, clamp(sum.lambda * scale, 0.0, 1.0));
+}
+#endif
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {
+        return;
+    }
+    let g = textureLoad(guide, pixel, 0).xy;
+    let depth = bitcast<f32>(g.y);
+    if depth <= 0.0 {
+        textureStore(history_out, pixel, vec4(0u));
+        textureStore(color_out, pixel, vec4(0.0));
+#ifdef PREFILTER
+        textureStore(luminance_out, pixel, vec4(0.0));
+#endif
+#ifdef FEEDBACK
+        textureStore(feedback_out, pixel, vec4(0u));
+#endif
+        return;
+    }
+    let normal = unpack_normal(g.x);
+    let sample = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+    let l = luminance(sample);
+    var history = History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    if frame.continued != 0u {
+        let m = textureLoad(motion, pixel, 0).xyz;
+#ifdef OBJECTS
+        let here = textureLoad(object, pixel, 0).x;
+#else
+        let here = 0u;
+#endif
+        history = reproject(pixel, m, origin_of(vec2<f32>(pixel), m, normal, here));
+    }
+    var color = sample;
+    var mean = l;
+    var variance = 0.0;
+    var length = 1.0;
+    var lambda = 0.0;
+    if history.weight > 0.0 {
+        var before = history.color;
+        var mean_before = history.mean;
+        var variance_before = history.variance;
+        var kept = history.length;
+#ifdef GRADIENT
+        let change = change_at(pixel, normal, depth);
+        lambda = change.lambda;
+#ifdef HISTORY_RATIO
+        before *= change.ratio.xyz;
+        mean_before *= change.ratio.w;
+        variance_before *= change.ratio.w * change.ratio.w;
+#endif
+        kept *= pow(1.0 - lambda, frame.history_power);
+#endif
+#ifdef BLEND_BY_LAMBDA
+        // α' = (1 − λ)·α + λ, as the talk and the paper have it, and never less than what the shortened history asks for.
+        let base = max(1.0 / (history.length + 1.0), frame.alpha);
+        var alpha = max((1.0 - lambda) * base + lambda, 1.0 / (kept + 1.0));
+#else
+        var alpha = max(1.0 / (kept + 1.0), frame.alpha);
+#endif
+        length = min(kept + 1.0, frame.max_history);
+#ifdef RESHADE
+        // The gradient's sample is not new: averaged in, it would count twice (noise ×1.11). Only where it replaces what λ
+        // drops does it count.
+        if is_sample_pixel(textureLoad(samples, pixel / 3, 0), id.xy) {
+            alpha = lambda;
+            length = max(kept, 1.0);
+        }
+#endif
+        alpha = clamp(alpha, 0.0, 1.0);
+        color = before + alpha * (sample - before);
+        // Running mean and variance with weight α (West 1979): nothing is subtracted from m₂, so nothing cancels.
+        let deviation = l - mean_before;
+        mean = mean_before + alpha * deviation;
+        variance = (1.0 - alpha) * (variance_before + alpha * deviation * deviation);
+    }
+    let packed = pack_rgb(max(color, vec3(0.0)));
+#ifdef FEEDBACK
+    textureStore(history_out, pixel, vec4(bitcast<u32>(mean), 0u, bitcast<u32>(variance), pack_length_lambda(length, lambda)));
+    textureStore(feedback_out, pixel, vec4(packed, 0u, 0u));
+#else
+    textureStore(history_out, pixel, vec4(packed, bitcast<u32>(variance), pack_length_lambda(length, lambda)));
+#endif
+#ifdef VARIANCE_OF_MEAN
+    // Bessel's correction while it matters, then the variance of a mean of n.
+    let bessel = select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
+    let guiding = variance * bessel / length;
+#else
+    let guiding = variance;
+#endif
+    // What is filtered is what was stored.
+    let stored = unpack_rgb(packed);
+    textureStore(color_out, pixel, vec4(stored, guiding));
+#ifdef PREFILTER
+    textureStore(luminance_out, pixel, vec4(luminance(stored)));
+#endif
+}

@@ -1,0 +1,183 @@
+// One path (or a few) per pixel from the visible surface: next-event estimation and scattered rays, weighted against each
+// other (Veach 1997), Lambert and GGX. The result is demodulated; what is emitted towards the camera is kept apart.
+//
+// The pixel that its stratum chose as gradient sample repeats last frame's path instead: last frame's surface point on this
+// frame's geometry, seen from last frame's camera, with last frame's random numbers, in this frame's light.
+
+#import asvgf::frame::{frame, direction, sample_point, inside, Camera}
+#import asvgf::random::{seed_of, uniform_float}
+#import asvgf::traverse::{Ray, closest_hit, occluded}
+#import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at, offset_origin}
+#import asvgf::material::{Surface, surface_at, demodulation, scattering, sample_direction}
+#import asvgf::light::{environment_radiance, environment_density, emitter_density}
+#ifdef LIGHTS
+#import asvgf::light::sample_light
+#endif
+#import asvgf::scene::{NO_TRIANGLE, triangles, instance_numbers, scene}
+#import asvgf::color::{luminance, sanitize}
+#import asvgf::packing::pack_rgb
+#ifdef RESHADE
+#import asvgf::strata::{is_sample_pixel, previous_pixel}
+#endif
+
+@group(0) @binding(1) var visibility: texture_2d<u32>;
+#ifdef RESHADE
+@group(0) @binding(2) var visibility_previous: texture_2d<u32>;
+@group(0) @binding(3) var samples: texture_2d<u32>;
+#endif
+@group(0) @binding(4) var radiance_out: texture_storage_2d<rg32uint, write>;
+@group(0) @binding(5) var albedo_out: texture_storage_2d<rgba16float, write>;
+#ifdef DIRECT_EMISSION
+@group(0) @binding(6) var emission_out: texture_storage_2d<rg32uint, write>;
+#endif
+
+// The surface that a pixel saw, placed where its triangle is now, seen as it was then.
+fn visible_surface(id: u32, camera: Camera, pixel: vec2<f32>, before: bool) -> Surface {
+    let v = visible(id);
+    let now = triangle_now(v);
+    let ray = direction(camera, sample_point(camera, pixel));
+#ifdef INSTANCED
+    var then = now;
+    if before {
+        then = triangle_before(v);
+    }
+    let weights = barycentrics(then, camera.eye, ray);
+    return surface_at(v, now, weights, at(now, weights) - camera.eye);
+#else
+    let weights = barycentrics(now, camera.eye, ray);
+    return surface_at(v, now, weights, at(now, weights) - camera.eye);
+#endif
+}
+
+// Power heuristic with exponent 2 (Veach 1997, eq. 9.13).
+fn mis_weight(chosen: f32, other: f32) -> f32 {
+    let a = chosen / max(other, 1e-30);
+    return 1.0 - 1.0 / (1.0 + a * a);
+}
+
+// Radiance that the surface reflects towards the viewer, one path's estimate.
+fn path(first: Surface, seed: u32) -> vec3<f32> {
+    var state = seed;
+    var s = first;
+    var throughput = vec3(1.0);
+    var total = vec3(0.0);
+    for (var bounce = 0u; bounce <= frame.bounces; bounce++) {
+        // Always the same number of draws, so that one light's change does not shift the others' random numbers.
+        let light_choice = uniform_float(&state);
+        let light_u = vec2(uniform_float(&state), uniform_float(&state));
+        let lobe = uniform_float(&state);
+        let direction_u = vec2(uniform_float(&state), uniform_float(&state));
+        let survival = uniform_float(&state);
+        let origin = offset_origin(s.position, s.geometric);
+#ifdef LIGHTS
+#ifndef SCATTERED_RAYS_ONLY
+        let light = sample_light(s.position, light_choice, light_u);
+        let towards = scattering(s, light.direction);
+        let arriving = towards.value * light.radiance;
+        if light.density > 0.0 && max(max(arriving.x, arriving.y), arriving.z) > 0.0 {
+            // Short of the light by one part in 10⁴, so that it does not shadow itself.
+            if !occluded(Ray(origin, light.direction), light.distance * 0.9999) {
+#ifdef LIGHT_SAMPLES_ONLY
+                let weight = 1.0;
+#else
+                let weight = select(1.0, mis_weight(light.density, towards.density), light.has_area);
+#endif
+                total += throughput * arriving * (weight / light.density);
+            }
+        }
+#endif
+#endif
+        let next = sample_direction(s, direction_u, lobe);
+        let scattered = scattering(s, next);
+        if scattered.density <= 0.0 {
+            break;
+        }
+        throughput *= scattered.value / scattered.density;
+        let hit = closest_hit(Ray(origin, next));
+        if hit.triangle == NO_TRIANGLE {
+#ifdef ENVIRONMENT_LIGHT
+#ifndef LIGHT_SAMPLES_ONLY
+            let sky = environment_radiance(next);
+#ifdef SCATTERED_RAYS_ONLY
+            let weight = 1.0;
+#else
+            let weight = mis_weight(scattered.density, environment_density(sky));
+#endif
+            total += throughput * sky * weight;
+#endif
+#endif
+            break;
+        }
+        let v = Visible(hit.triangle, hit.instance);
+        let t = triangle_now(v);
+        s = surface_at(v, t, hit.barycentrics, next);
+#ifdef EMITTERS
+#ifndef LIGHT_SAMPLES_ONLY
+        let emitter = bitcast<u32>(triangles[hit.triangle * 3u + 1u].w);
+        if emitter > 0u {
+#ifdef SCATTERED_RAYS_ONLY
+            let weight = 1.0;
+#else
+#ifdef INSTANCED
+            let index = instance_numbers(hit.instance).z + emitter - 1u;
+#else
+            let index = emitter - 1u;
+#endif
+            let weight = mis_weight(scattered.density, emitter_density(index, t, next, hit.distance));
+#endif
+            total += throughput * s.emission * weight;
+        }
+#endif
+#endif
+        if bounce >= frame.roulette {
+            // Russian roulette (Arvo and Kirk 1990) by what the path can still carry.
+            let p = clamp(max(max(throughput.x, throughput.y), throughput.z), 0.05, 0.95);
+            if survival >= p {
+                break;
+            }
+            throughput /= p;
+        }
+    }
+    return total;
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {
+        return;
+    }
+    let seen = textureLoad(visibility, pixel, 0).x;
+    if seen == NO_TRIANGLE {
+        textureStore(radiance_out, pixel, vec4(0u));
+        textureStore(albedo_out, pixel, vec4(0.0));
+#ifdef DIRECT_EMISSION
+        let sky = environment_radiance(normalize(direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy)))));
+        textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(sky)), 0u, 0u));
+#endif
+        return;
+    }
+    var s = visible_surface(seen, frame.camera, vec2<f32>(id.xy), false);
+    let albedo = demodulation(s);
+    textureStore(albedo_out, pixel, vec4(albedo, 0.0));
+#ifdef DIRECT_EMISSION
+    textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(s.emission)), 0u, 0u));
+#endif
+    var seed_pixel = id.xy;
+    var seed_frame = frame.index;
+#ifdef RESHADE
+    let record = textureLoad(samples, pixel / 3, 0);
+    if is_sample_pixel(record, id.xy) {
+        let q = previous_pixel(record);
+        let then = textureLoad(visibility_previous, q, 0).x;
+        s = visible_surface(then, frame.previous, vec2<f32>(q), true);
+        seed_pixel = vec2<u32>(q);
+        seed_frame = frame.index - 1u;
+    }
+#endif
+    var sum = vec3(0.0);
+    for (var i = 0u; i < frame.samples; i++) {
+        sum += sanitize(path(s, seed_of(seed_pixel, seed_frame, i, frame.seed)));
+    }
+    textureStore(radiance_out, pixel, vec4(pack_rgb(sum / (f32(frame.samples) * demodulation(s))), 0u, 0u));
+}

@@ -1,0 +1,210 @@
+// Shows one intermediate image: as numbers in a float target, as a picture in an rgba8unorm one.
+
+#import asvgf::frame::{frame, inside}
+#import asvgf::color::{is_finite, luminance}
+#import asvgf::packing::{unpack_rgb, unpack_normal, unpack_length, unpack_lambda}
+#import asvgf::random::hash
+
+#if VIEW == 0
+// Denoised.
+@group(0) @binding(1) var color: texture_2d<f32>;
+#endif
+#if VIEW == 1
+// Noisy.
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+#endif
+#if VIEW <= 2
+// Albedo, and what the two above are multiplied with.
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+#endif
+#if VIEW <= 1
+#ifdef DIRECT_EMISSION
+@group(0) @binding(4) var emission: texture_2d<u32>;
+#endif
+#endif
+#if VIEW == 3
+@group(0) @binding(5) var guide: texture_2d<u32>;
+#endif
+#if VIEW == 4
+@group(0) @binding(5) var guide: texture_2d<u32>;
+#endif
+#if VIEW == 5
+@group(0) @binding(6) var visibility: texture_2d<u32>;
+#endif
+#if VIEW == 6
+@group(0) @binding(7) var motion: texture_2d<f32>;
+#endif
+#if VIEW == 7
+// Gradient.
+@group(0) @binding(8) var gradient: texture_2d<f32>;
+#endif
+#if VIEW >= 8
+#if VIEW <= 11
+// λ, α, history length, variance.
+@group(0) @binding(9) var history: texture_2d<u32>;
+#endif
+#endif
+#if VIEW == 12
+// Not finite.
+@group(0) @binding(1) var color: texture_2d<f32>;
+#endif
+
+#ifdef TARGET_PICTURE
+@group(0) @binding(10) var target_out: texture_storage_2d<rgba8unorm, write>;
+#else
+#ifdef TARGET_F16
+@group(0) @binding(10) var target_out: texture_storage_2d<rgba16float, write>;
+#else
+@group(0) @binding(10) var target_out: texture_storage_2d<rgba32float, write>;
+#endif
+#endif
+
+struct Show {
+    // Factor on radiance before tone mapping.
+    exposure: f32,
+    // What is shown as white: depth, pixels of motion, frames of history.
+    range: f32,
+}
+
+@group(0) @binding(11) var<uniform> show: Show;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+#if VIEW == 0
+    var c = textureLoad(color, pixel, 0).xyz * textureLoad(albedo, pixel, 0).xyz;
+#ifdef DIRECT_EMISSION
+    c += unpack_rgb(textureLoad(emission, pixel, 0).xy);
+#endif
+    return c;
+#endif
+#if VIEW == 1
+    var c = unpack_rgb(textureLoad(radiance, pixel, 0).xy) * textureLoad(albedo, pixel, 0).xyz;
+#ifdef DIRECT_EMISSION
+    c += unpack_rgb(textureLoad(emission, pixel, 0).xy);
+#endif
+    return c;
+#endif
+#if VIEW == 2
+    return textureLoad(albedo, pixel, 0).xyz;
+#endif
+#if VIEW == 3
+    let g = textureLoad(guide, pixel, 0).xy;
+    return unpack_normal(g.x);
+#endif
+#if VIEW == 4
+    return vec3(bitcast<f32>(textureLoad(guide, pixel, 0).y));
+#endif
+#if VIEW == 5
+    // 24 bits fit a float exactly: the low 16 and the rest.
+    let id = textureLoad(visibility, pixel, 0).x;
+    return vec3(f32(id & 0xffffu), f32(id >> 16u), select(1.0, 0.0, id == 0xffffffffu));
+#endif
+#if VIEW == 6
+    return textureLoad(motion, pixel, 0).xyz;
+#endif
+#if VIEW == 7
+    let g = textureLoad(gradient, pixel / 3, 0).xy;
+    return vec3(clamp(g.x / max(g.y, 1e-30), 0.0, 1.0));
+#endif
+#if VIEW == 8
+    return vec3(unpack_lambda(textureLoad(history, pixel, 0).w));
+#endif
+#if VIEW == 9
+    let h = textureLoad(history, pixel, 0).w;
+    let n = unpack_length(h);
+    let blended = max(1.0 / max(n, 1.0), frame.alpha);
+#ifdef BLEND_BY_LAMBDA
+    return vec3(max(blended, (1.0 - unpack_lambda(h)) * frame.alpha + unpack_lambda(h))) * select(0.0, 1.0, n > 0.0);
+#else
+    return vec3(blended * select(0.0, 1.0, n > 0.0));
+#endif
+#endif
+#if VIEW == 10
+    return vec3(unpack_length(textureLoad(history, pixel, 0).w));
+#endif
+#if VIEW == 11
+    return vec3(bitcast<f32>(textureLoad(history, pixel, 0).z));
+#endif
+#if VIEW == 12
+    let c = textureLoad(color, pixel, 0);
+    let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z) && is_finite(c.w);
+    return vec3(select(1.0, 0.0, ok));
+#endif
+}
+
+#ifdef TARGET_PICTURE
+// Khronos PBR Neutral tone mapper (2024): colours up to 0.76 stay as they are, highlights are compressed.
+fn tone_map(radiance: vec3<f32>) -> vec3<f32> {
+    let start = 0.76;
+    let low = min(radiance.x, min(radiance.y, radiance.z));
+    let offset = select(0.04, low - 6.25 * low * low, low < 0.08);
+    let c = radiance - offset;
+    let peak = max(c.x, max(c.y, c.z));
+    if peak < start {
+        return c;
+    }
+    let d = 1.0 - start;
+    let mapped = 1.0 - d * d / (peak + d - start);
+    let desaturation = 1.0 - 1.0 / (0.15 * (peak - mapped) + 1.0);
+    return mix(c * (mapped / peak), vec3(mapped), desaturation);
+}
+
+// IEC 61966-2-1.
+fn linear_to_srgb(c: vec3<f32>) -> vec3<f32> {
+    return select(1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, 12.92 * c, c <= vec3(0.0031308));
+}
+
+// Black, blue, magenta, orange, white: brightness grows all the way.
+fn ramp(x: f32) -> vec3<f32> {
+    let t = clamp(x, 0.0, 1.0);
+    return clamp(vec3(1.8 * t, 2.2 * t * t * t, 1.6 * t - 2.6 * t * t + 2.0 * t * t * t), vec3(0.0), vec3(1.0));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+#if VIEW <= 1
+    return linear_to_srgb(clamp(tone_map(clamp(v * show.exposure, vec3(0.0), vec3(1e6))), vec3(0.0), vec3(1.0)));
+#endif
+#if VIEW == 2
+    return linear_to_srgb(v);
+#endif
+#if VIEW == 3
+    return select(0.5 * v + 0.5, vec3(0.0), dot(v, v) == 0.0);
+#endif
+#if VIEW == 4
+    return vec3(v.x / (v.x + show.range));
+#endif
+#if VIEW == 5
+    let h = hash(u32(v.x) + 65536u * u32(v.y));
+    return vec3(f32(h & 255u), f32((h >> 8u) & 255u), f32((h >> 16u) & 255u)) / 255.0 * v.z;
+#endif
+#if VIEW == 6
+    return vec3(0.5 + 0.5 * clamp(v.xy / show.range, vec2(-1.0), vec2(1.0)), 0.5);
+#endif
+#if VIEW >= 7
+#if VIEW <= 9
+    return ramp(v.x);
+#endif
+#endif
+#if VIEW == 10
+    return ramp(v.x / show.range);
+#endif
+#if VIEW == 11
+    return ramp(0.25 * log2(1.0 + 255.0 * sqrt(max(v.x, 0.0)) * show.exposure) / 2.0);
+#endif
+#if VIEW == 12
+    return vec3(v.x, 0.0, 0.0);
+#endif
+}
+#endif
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {
+        return;
+    }
+#ifdef TARGET_PICTURE
+    textureStore(target_out, pixel, vec4(picture(value(pixel)), 1.0));
+#else
+    textureStore(target_out, pixel, vec4(value(pixel), 1.0));
+#endif
+}

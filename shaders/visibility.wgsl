@@ -1,0 +1,52 @@
+// Which triangle each pixel sees, and everything that follows from knowing it: normal, depth, motion.
+//
+// The visibility buffer holds one u32 per pixel; vertices come from the lookup table, for this frame and the previous
+// one. The motion is exact: the same barycentric weights on the previous frame's vertices, through the previous camera.
+
+#import asvgf::frame::{frame, direction, project, sample_point, inside}
+#import asvgf::traverse::{Ray, closest_hit}
+#import asvgf::surface::{Visible, visibility_id, triangle_now, triangle_before, barycentrics, at, geometric_normal, shading_normal}
+#import asvgf::scene::NO_TRIANGLE
+#import asvgf::packing::pack_normal
+
+@group(0) @binding(1) var visibility_out: texture_storage_2d<r32uint, write>;
+// Packed world normal; linear depth (f32 bits), 0 where nothing was hit.
+@group(0) @binding(2) var guide_out: texture_storage_2d<rg32uint, write>;
+// Previous − current position in pixels (x right, y down), then the depth that the point had in the previous camera.
+@group(0) @binding(3) var motion_out: texture_storage_2d<rgba32float, write>;
+#ifdef INSTANCED
+@group(0) @binding(4) var object_out: texture_storage_2d<r32uint, write>;
+#endif
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {
+        return;
+    }
+    let ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
+    let hit = closest_hit(ray);
+    if hit.triangle == NO_TRIANGLE {
+        textureStore(visibility_out, pixel, vec4(NO_TRIANGLE));
+        textureStore(guide_out, pixel, vec4(0u));
+        textureStore(motion_out, pixel, vec4(0.0));
+#ifdef INSTANCED
+        textureStore(object_out, pixel, vec4(NO_TRIANGLE));
+#endif
+        return;
+    }
+    let v = Visible(hit.triangle, hit.instance);
+    let now = triangle_now(v);
+    let weights = barycentrics(now, ray.origin, ray.direction);
+    let normal = shading_normal(v, weights, geometric_normal(now, ray.direction));
+    let here = project(frame.camera, at(now, weights));
+    let before = project(frame.previous, at(triangle_before(v), weights));
+    // A point that was behind the previous camera has no place in its image: far outside.
+    let motion = select(vec2(-1e9), before.xy - here.xy, before.z > 0.0);
+    textureStore(visibility_out, pixel, vec4(visibility_id(hit.triangle, hit.instance)));
+    textureStore(guide_out, pixel, vec4(pack_normal(normal), bitcast<u32>(here.z), 0u, 0u));
+    textureStore(motion_out, pixel, vec4(motion, before.z, 0.0));
+#ifdef INSTANCED
+    textureStore(object_out, pixel, vec4(hit.instance));
+#endif
+}

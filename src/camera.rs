@@ -1,0 +1,145 @@
+//! The camera, and how it reaches the shaders.
+
+use crate::Error;
+use bytemuck::{Pod, Zeroable};
+
+/// A perspective camera in a right-handed world. Depth is linear, along `forward`; pixels count from the upper left corner,
+/// x right, y down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where it is.
+    pub eye: [f32; 3],
+    /// A point that it looks at, not `eye` itself.
+    pub target: [f32; 3],
+    /// A direction that shall point up in the image, not along the view.
+    pub up: [f32; 3],
+    /// Vertical field of view in radians, 0 < fov < π.
+    pub fov_y: f32,
+    /// Where the ray of a pixel goes through it, from its centre, in pixels: −½…½. The same for all pixels of a frame.
+    pub jitter: [f32; 2],
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self { eye: [0.0; 3], target: [0.0, 0.0, -1.0], up: [0.0, 1.0, 0.0], fov_y: 0.8, jitter: [0.0; 2] }
+    }
+}
+
+/// `Camera` of shaders/shared/frame.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(crate) struct CameraUniform {
+    eye: [f32; 3],
+    jitter_x: f32,
+    forward: [f32; 3],
+    jitter_y: f32,
+    corner: [f32; 3],
+    pad: f32,
+    du: [f32; 3],
+    inverse_du: f32,
+    dv: [f32; 3],
+    inverse_dv: f32,
+}
+
+impl Camera {
+    /// The affine map from pixel to ray: direction = corner + x·du + y·dv, with unit component along `forward`. In f64, so
+    /// that the f32 results are as good as they can be for very narrow and very wide views.
+    pub(crate) fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
+        let wrong = |element, reason| Err(Error::Camera { element, reason });
+        let finite = |v: &[f32]| v.iter().all(|x| x.is_finite());
+        if !finite(&self.eye) {
+            return wrong("eye", "is not finite");
+        }
+        if !finite(&self.target) || !finite(&self.up) {
+            return wrong("target or up", "is not finite");
+        }
+        if !(self.fov_y > 0.0 && self.fov_y < std::f32::consts::PI) {
+            return wrong("fov_y", "must be between 0 and π, in radians");
+        }
+        if !finite(&self.jitter) {
+            return wrong("jitter", "is not finite");
+        }
+        let eye = self.eye.map(f64::from);
+        let Some(forward) = normalize(subtract(self.target.map(f64::from), eye)) else {
+            return wrong("target", "must differ from the eye");
+        };
+        let Some(right) = normalize(cross(forward, self.up.map(f64::from))) else {
+            return wrong("up", "must not point along the view");
+        };
+        let up = cross(right, forward);
+        let pixel = 2.0 * (f64::from(self.fov_y) / 2.0).tan() / f64::from(size[1]);
+        let half = [f64::from(size[0]) / 2.0, f64::from(size[1]) / 2.0];
+        let (du, dv) = (scale(right, pixel), scale(up, -pixel));
+        let corner = subtract(subtract(forward, scale(du, half[0])), scale(dv, half[1]));
+        let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+        Ok(CameraUniform {
+            eye: self.eye,
+            jitter_x: self.jitter[0],
+            forward: narrow(forward),
+            jitter_y: self.jitter[1],
+            corner: narrow(corner),
+            pad: 0.0,
+            du: narrow(du),
+            inverse_du: (1.0 / dot(du, du)) as f32,
+            dv: narrow(dv),
+            inverse_dv: (1.0 / dot(dv, dv)) as f32,
+        })
+    }
+}
+
+fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn scale(a: [f64; 3], s: f64) -> [f64; 3] {
+    a.map(|x| x * s)
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn normalize(a: [f64; 3]) -> Option<[f64; 3]> {
+    let length = dot(a, a).sqrt();
+    (length > 1e-30 && length.is_finite()).then(|| scale(a, 1.0 / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn along(u: &CameraUniform, x: f64, y: f64) -> [f64; 3] {
+        let part = |i: usize| f64::from(u.corner[i]) + x * f64::from(u.du[i]) + y * f64::from(u.dv[i]);
+        [part(0), part(1), part(2)]
+    }
+
+    #[test]
+    fn the_image_centre_looks_forward_and_the_top_edge_is_half_the_field_of_view_up() {
+        let camera = Camera { eye: [1.0, 2.0, 3.0], target: [1.0, 2.0, -5.0], fov_y: 1.0, ..Default::default() };
+        let u = camera.uniform([64, 48]).unwrap();
+        let centre = along(&u, 32.0, 24.0);
+        assert!(centre[0].abs() < 1e-6 && centre[1].abs() < 1e-6 && (centre[2] + 1.0).abs() < 1e-6);
+        let top = along(&u, 32.0, 0.0);
+        assert!((top[1] - 0.5_f64.tan()).abs() < 1e-6, "{top:?}");
+        // x grows to the right: +X when looking along −Z.
+        assert!(along(&u, 64.0, 24.0)[0] > 0.0);
+    }
+
+    #[test]
+    fn an_impossible_camera_is_refused_by_name() {
+        let named = |c: Camera| match c.uniform([8, 8]) {
+            Err(Error::Camera { element, .. }) => element,
+            other => panic!("{other:?}"),
+        };
+        let c = Camera::default();
+        assert_eq!(named(Camera { eye: [f32::NAN, 0.0, 0.0], ..c }), "eye");
+        assert_eq!(named(Camera { target: c.eye, ..c }), "target");
+        assert_eq!(named(Camera { up: [0.0, 0.0, 1.0], ..c }), "up");
+        assert_eq!(named(Camera { fov_y: 3.2, ..c }), "fov_y");
+        assert_eq!(named(Camera { fov_y: 0.0, ..c }), "fov_y");
+    }
+}

@@ -1,0 +1,395 @@
+//! The [`Denoiser`]: carries out a [`Plan`] in the host's encoder.
+
+use crate::camera::{Camera, CameraUniform};
+use crate::gpu::compose::{Permutation, Shaders};
+use crate::gpu::frame::{FrameUniform, Moment};
+use crate::gpu::kernel::Kernel;
+use crate::gpu::textures::{Textures, strata};
+use crate::gpu::timing::{FrameTimes, Timing};
+use crate::passes::{self, Pass};
+use crate::plan::{Feature, Grid, Plan, Slot, Step};
+use crate::scene::GpuScene;
+use crate::settings::{Mode, Settings};
+use crate::{Error, View, ViewOptions};
+use std::collections::HashMap;
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+use wgpu::{
+    BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, Features,
+    Limits, Queue, TextureFormat, TextureUsages, TextureView,
+};
+
+/// Spacing of the strides of the à-trous iterations in their buffer: the default `min_uniform_buffer_offset_alignment`.
+const STRIDE_SPACING: u64 = 256;
+
+/// What a [`Denoiser`] is made for.
+#[derive(Clone, Debug, Default)]
+pub struct DenoiserDescriptor {
+    /// Width and height of the image in pixels, each 1…`max_texture_dimension_2d`.
+    pub size: [u32; 2],
+    /// What to do.
+    pub settings: Settings,
+    /// Measure each pass on the GPU; needs [`wgpu::Features::TIMESTAMP_QUERY`] on the device.
+    pub timing: bool,
+}
+
+/// What a [`Denoiser`] asks of the device.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Requirements {
+    /// Features that must be enabled.
+    pub features: Features,
+    /// Limits that must be reached; those of [`wgpu::Limits::default`] always do.
+    pub limits: Limits,
+}
+
+/// Turns noisy samples into clean frames: traces a [`GpuScene`] and filters the result.
+///
+/// It records into the host's encoder and never submits, waits or prints. Several frames, or several denoisers, may be
+/// recorded into one encoder. History lives in the denoiser; use one per view.
+#[derive(Debug)]
+pub struct Denoiser {
+    size: [u32; 2],
+    settings: Settings,
+    shaders: ShadersDebug,
+    kernels: HashMap<Permutation, Kernel>,
+    textures: Textures,
+    strides: Buffer,
+    timing: Option<Timing>,
+    last: Option<LastFrame>,
+    parity: usize,
+    history: bool,
+}
+
+/// The composer has no `Debug` of its own.
+struct ShadersDebug(Shaders);
+
+impl std::fmt::Debug for ShadersDebug {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Shaders")
+    }
+}
+
+/// What the next frame, and [`Denoiser::show`], need of the last one.
+#[derive(Debug)]
+struct LastFrame {
+    plan: Plan,
+    uniform: Buffer,
+    camera: CameraUniform,
+    scene: [u64; 2],
+    index: u32,
+}
+
+impl Denoiser {
+    /// What a device must offer for these settings.
+    pub fn requirements(descriptor: &DenoiserDescriptor) -> Requirements {
+        let features = if descriptor.timing { Features::TIMESTAMP_QUERY } else { Features::empty() };
+        Requirements { features, limits: Limits::default() }
+    }
+
+    /// Makes a denoiser for images of one size. Shaders are compiled when a frame first needs them.
+    ///
+    /// # Errors
+    /// What the device lacks, or which setting is out of range.
+    pub fn new(device: &Device, descriptor: &DenoiserDescriptor) -> Result<Self, Error> {
+        descriptor.settings.check()?;
+        let required = Self::requirements(descriptor);
+        let missing = required.features - device.features();
+        if !missing.is_empty() {
+            return Err(Error::Feature { missing, setting: "DenoiserDescriptor::timing" });
+        }
+        let mut shortfall = None;
+        required.limits.check_limits_with_fail_fn(&device.limits(), false, |limit, needed, available| {
+            shortfall.get_or_insert(Error::Limit { limit, needed, available });
+        });
+        if let Some(error) = shortfall {
+            return Err(error);
+        }
+        check_size(device, descriptor.size)?;
+        let mut strides = vec![0_u8; 9 * STRIDE_SPACING as usize];
+        for i in 0..9 {
+            let at = i * STRIDE_SPACING as usize;
+            strides[at..at + 4].copy_from_slice(&(1_i32 << i).to_le_bytes());
+        }
+        Ok(Self {
+            size: descriptor.size,
+            settings: descriptor.settings.clone(),
+            shaders: ShadersDebug(Shaders::new()?),
+            kernels: HashMap::new(),
+            textures: Textures::default(),
+            strides: device.create_buffer_init(&BufferInitDescriptor {
+                label: Some("asvgf strides"),
+                contents: &strides,
+                usage: BufferUsages::UNIFORM,
+            }),
+            timing: descriptor.timing.then(Timing::default),
+            last: None,
+            parity: 0,
+            history: false,
+        })
+    }
+
+    /// The settings in force.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Changes settings from the next frame on. History is kept unless the new settings keep another kind of it.
+    ///
+    /// # Errors
+    /// The setting that is out of range; the old ones stay in force.
+    pub fn set_settings(&mut self, settings: Settings) -> Result<(), Error> {
+        settings.check()?;
+        if settings.mode != self.settings.mode || settings.filter.feedback != self.settings.filter.feedback {
+            self.history = false;
+        }
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Changes the size of the image. The next frame starts without history.
+    ///
+    /// # Errors
+    /// A size outside the device's limits; the old one stays.
+    pub fn resize(&mut self, device: &Device, size: [u32; 2]) -> Result<(), Error> {
+        check_size(device, size)?;
+        if size != self.size {
+            self.size = size;
+            self.textures.clear();
+            self.last = None;
+            self.history = false;
+        }
+        Ok(())
+    }
+
+    /// Forgets the history, as after a camera cut.
+    pub fn reset(&mut self) {
+        self.history = false;
+    }
+
+    /// Width and height of the image in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Bytes of the denoiser's own textures.
+    pub fn memory(&self) -> u64 {
+        self.textures.bytes()
+    }
+
+    /// What the last frame ran, and why each piece was in.
+    pub fn plan(&self) -> Option<&Plan> {
+        self.last.as_ref().map(|l| &l.plan)
+    }
+
+    /// GPU times of the oldest finished frame that was not taken yet; `None` while there is none. Never waits: poll the device
+    /// as usual.
+    pub fn take_times(&mut self) -> Option<FrameTimes> {
+        self.timing.as_ref()?.take()
+    }
+
+    /// Records one frame: traces the scene from the camera, filters, and writes linear radiance into `target`, an
+    /// `rgba16float` or `rgba32float` view of the denoiser's size with storage usage.
+    ///
+    /// `index` numbers the frames and, with the pixel, decides all random numbers. It should grow by one per frame; the history
+    /// is kept for any index, but repeated paths are only right for successive ones, so the gradient pauses otherwise.
+    ///
+    /// # Errors
+    /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
+    #[allow(clippy::too_many_arguments, reason = "each is a different thing that only the host has")]
+    pub fn render(
+        &mut self,
+        device: &Device,
+        queue: &Queue,
+        encoder: &mut CommandEncoder,
+        scene: &GpuScene,
+        camera: &Camera,
+        index: u32,
+        target: &TextureView,
+    ) -> Result<(), Error> {
+        let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
+        let camera = camera.uniform(self.size)?;
+        let plan = Plan::path_traced(&scene.traits(), &self.settings, format);
+        self.compile(device, &plan.steps, scene.stack())?;
+        let lost = self.textures.fit(device, self.size, &plan);
+        let version = scene.version();
+        let last = self.last.as_ref();
+        let mut continued = self.history && !lost && last.is_some_and(|l| l.scene[0] == version[0]);
+        if self.settings.mode == Mode::Reference {
+            // A mean over frames is only one of frames that are alike.
+            continued &= last.is_some_and(|l| l.scene == version && l.camera == camera);
+        }
+        let successive = last.is_some_and(|l| l.index.wrapping_add(1) == index);
+        if plan.features.has(Feature::Reshade) && !successive {
+            continued = false;
+        }
+        let previous = last.filter(|_| continued).map_or(camera, |l| l.camera);
+        let moment = Moment { camera, previous, index, continued };
+        let uniform = FrameUniform::new(self.size, &moment, &self.settings);
+        let uniform = device.create_buffer_init(&BufferInitDescriptor {
+            label: Some("asvgf frame"),
+            contents: bytemuck::bytes_of(&uniform),
+            usage: BufferUsages::UNIFORM,
+        });
+        self.parity ^= 1;
+        encoder.push_debug_group("asvgf frame");
+        let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
+        for step in &plan.steps {
+            let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
+            let resources = Resources { scene: Some(scene), uniform: &uniform, target, show: None };
+            self.dispatch(device, encoder, step, &resources, timestamps)?;
+        }
+        if let (Some(timing), Some(queries)) = (&self.timing, queries) {
+            timing.end(device, queue, encoder, queries);
+        }
+        encoder.pop_debug_group();
+        self.history = true;
+        self.last = Some(LastFrame { plan, uniform, camera, scene: version, index });
+        Ok(())
+    }
+
+    /// Records the display of an intermediate image of the last recorded frame, into an `rgba32float` or `rgba16float` view as
+    /// numbers or into an `rgba8unorm` view as a picture.
+    ///
+    /// # Errors
+    /// [`Error::NoView`] where the last frame did not make it, or what is wrong with the target.
+    pub fn show(
+        &mut self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        view: View,
+        options: ViewOptions,
+        target: &TextureView,
+    ) -> Result<(), Error> {
+        let accepted = [TextureFormat::Rgba32Float, TextureFormat::Rgba16Float, TextureFormat::Rgba8Unorm];
+        let format = self.check_target(target, &accepted)?;
+        let Some(last) = self.last.take() else {
+            return Err(Error::NoView { view, reason: "no frame was rendered yet" });
+        };
+        let step = passes::view::step(view, &last.plan, self.settings.mode, format);
+        let result = step.and_then(|step| {
+            self.compile(device, std::slice::from_ref(&step), 0)?;
+            let show = device.create_buffer_init(&BufferInitDescriptor {
+                label: Some("asvgf view"),
+                contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
+                usage: BufferUsages::UNIFORM,
+            });
+            let resources = Resources { scene: None, uniform: &last.uniform, target, show: Some(&show) };
+            self.dispatch(device, encoder, &step, &resources, None)
+        });
+        self.last = Some(last);
+        result
+    }
+
+    fn check_target(&self, target: &TextureView, accepted: &[TextureFormat]) -> Result<TextureFormat, Error> {
+        let texture = target.texture();
+        let format = texture.format();
+        if !accepted.contains(&format) {
+            let accepted = match accepted.len() {
+                2 => "rgba16float or rgba32float",
+                _ => "rgba8unorm, rgba16float or rgba32float",
+            };
+            return Err(Error::ViewFormat { view: "target", format, accepted });
+        }
+        let found = [texture.width(), texture.height()];
+        if found != self.size {
+            return Err(Error::ViewSize { view: "target", found, expected: self.size });
+        }
+        let missing = TextureUsages::STORAGE_BINDING - texture.usage();
+        if !missing.is_empty() {
+            return Err(Error::ViewUsage { view: "target", missing });
+        }
+        Ok(format)
+    }
+
+    fn permutation(step: &Step, stack: u32) -> Permutation {
+        let traverses = matches!(step.pass, Pass::Visibility | Pass::Trace);
+        Permutation {
+            pass: step.pass,
+            features: step.features,
+            stack: if traverses { stack } else { 4 },
+            view: if step.pass == Pass::View { step.iteration } else { 0 },
+        }
+    }
+
+    fn compile(&mut self, device: &Device, steps: &[Step], stack: u32) -> Result<(), Error> {
+        for step in steps {
+            let permutation = Self::permutation(step, stack);
+            if !self.kernels.contains_key(&permutation) {
+                let kernel = Kernel::new(device, &mut self.shaders.0, permutation)?;
+                self.kernels.insert(permutation, kernel);
+            }
+        }
+        Ok(())
+    }
+
+    fn dispatch(
+        &self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        step: &Step,
+        resources: &Resources<'_>,
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) -> Result<(), Error> {
+        let permutation = Self::permutation(step, resources.scene.map_or(4, GpuScene::stack));
+        let missing = |name: String| Error::Shader {
+            shader: step.pass.name(),
+            features: format!("{:?}", step.features),
+            message: format!("nothing is bound to `{name}`"),
+        };
+        let kernel = self.kernels.get(&permutation).ok_or_else(|| missing("pipeline".into()))?;
+        let groups = kernel.bind(device, |name| self.resource(step, resources, name)).map_err(missing)?;
+        let [width, height] = match step.grid {
+            Grid::Pixels => self.size,
+            Grid::Strata => strata(self.size),
+        };
+        let label = format!("asvgf {}", step.pass.name());
+        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor { label: Some(&label), timestamp_writes });
+        pass.set_pipeline(&kernel.pipeline);
+        for (index, group) in groups.iter().enumerate() {
+            pass.set_bind_group(index as u32, group, &[]);
+        }
+        pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
+        Ok(())
+    }
+
+    /// What stands behind a binding's name.
+    fn resource<'a>(&'a self, step: &Step, given: &Resources<'a>, name: &str) -> Option<BindingResource<'a>> {
+        match name {
+            "frame" => return Some(given.uniform.as_entire_binding()),
+            "show" => return given.show.map(Buffer::as_entire_binding),
+            "stride" => {
+                return Some(BindingResource::Buffer(BufferBinding {
+                    buffer: &self.strides,
+                    offset: u64::from(step.iteration) * STRIDE_SPACING,
+                    size: std::num::NonZeroU64::new(4),
+                }));
+            }
+            _ => {}
+        }
+        if let Some((_, slot)) = step.bindings.iter().find(|(n, _)| *n == name) {
+            return match *slot {
+                Slot::Now(image) => self.textures.now(image, self.parity).map(BindingResource::TextureView),
+                Slot::Before(image) => self.textures.before(image, self.parity).map(BindingResource::TextureView),
+                Slot::Target => Some(BindingResource::TextureView(given.target)),
+            };
+        }
+        given.scene.and_then(|s| s.buffer(name)).map(Buffer::as_entire_binding)
+    }
+}
+
+/// What a dispatch uses that is not the denoiser's own.
+struct Resources<'a> {
+    scene: Option<&'a GpuScene>,
+    uniform: &'a Buffer,
+    target: &'a TextureView,
+    show: Option<&'a Buffer>,
+}
+
+fn check_size(device: &Device, size: [u32; 2]) -> Result<(), Error> {
+    let limit = device.limits().max_texture_dimension_2d;
+    if size.iter().all(|&s| s >= 1 && s <= limit) {
+        Ok(())
+    } else {
+        Err(Error::Size { width: size[0], height: size[1], limit })
+    }
+}

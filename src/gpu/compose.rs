@@ -1,0 +1,81 @@
+//! Composes a pass's shader from shaders/ and the features that are compiled in.
+
+use crate::Error;
+use crate::passes::Pass;
+use crate::plan::Features;
+use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor, ShaderDefValue};
+use std::collections::HashMap;
+use wgpu::naga::Module;
+
+/// The shared modules, each after those that it imports.
+const SHARED: &[(&str, &str)] = &[
+    ("color", include_str!("../../shaders/shared/color.wgsl")),
+    ("packing", include_str!("../../shaders/shared/packing.wgsl")),
+    ("random", include_str!("../../shaders/shared/random.wgsl")),
+    ("frame", include_str!("../../shaders/shared/frame.wgsl")),
+    ("strata", include_str!("../../shaders/shared/strata.wgsl")),
+    ("edge_stop", include_str!("../../shaders/shared/edge_stop.wgsl")),
+    ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
+    ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("scene", include_str!("../../shaders/shared/scene.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("texture", include_str!("../../shaders/shared/texture.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("traverse", include_str!("../../shaders/shared/traverse.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("surface", include_str!("../../shaders/shared/surface.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("material", include_str!("../../shaders/shared/material.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("light", include_str!("../../shaders/shared/light.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("blinn_phong", include_str!("../../shaders/shared/blinn_phong.wgsl")),
+];
+
+/// Which shader: a pass, its features, and the numbers that its source is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct Permutation {
+    pub pass: Pass,
+    pub features: Features,
+    /// STACK_SIZE, in shaders that traverse.
+    pub stack: u32,
+    /// VIEW, in the shader of views.
+    pub view: u32,
+}
+
+/// The shared modules, parsed once.
+pub(crate) struct Shaders(Composer);
+
+impl Shaders {
+    pub fn new() -> Result<Self, Error> {
+        let mut composer = Composer::default();
+        for &(name, source) in SHARED {
+            let descriptor = ComposableModuleDescriptor { source, file_path: name, ..Default::default() };
+            if let Err(e) = composer.add_composable_module(descriptor) {
+                let message = e.emit_to_string(&composer);
+                return Err(Error::Shader { shader: name, features: "nothing".into(), message });
+            }
+        }
+        Ok(Self(composer))
+    }
+
+    pub fn compose(&mut self, permutation: Permutation) -> Result<Module, Error> {
+        let Permutation { pass, features, stack, view } = permutation;
+        let mut defs: HashMap<String, ShaderDefValue> =
+            features.iter().map(|f| (f.define(), ShaderDefValue::Bool(true))).collect();
+        defs.insert("STACK_SIZE".into(), ShaderDefValue::UInt(stack));
+        defs.insert("VIEW".into(), ShaderDefValue::UInt(view));
+        let descriptor = NagaModuleDescriptor {
+            source: pass.source(),
+            file_path: pass.name(),
+            shader_defs: defs,
+            ..Default::default()
+        };
+        self.0.make_naga_module(descriptor).map_err(|e| Error::Shader {
+            shader: pass.name(),
+            features: format!("{features:?}"),
+            message: e.emit_to_string(&self.0),
+        })
+    }
+}

@@ -1,0 +1,88 @@
+//! One frame's constants, as shaders/shared/frame.wgsl reads them.
+
+use super::textures::strata;
+use crate::camera::CameraUniform;
+use crate::settings::{Settings, Stops};
+use bytemuck::{Pod, Zeroable};
+
+/// `Frame` of frame.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct FrameUniform {
+    camera: CameraUniform,
+    previous: CameraUniform,
+    size: [u32; 2],
+    strata: [u32; 2],
+    index: u32,
+    seed: u32,
+    continued: u32,
+    samples: u32,
+    bounces: u32,
+    roulette: u32,
+    alpha: f32,
+    max_history: f32,
+    history_power: f32,
+    gradient_gamma: f32,
+    sigma_luminance: f32,
+    sigma_depth: f32,
+    sigma_normal: f32,
+    ridge: f32,
+    ratio_limit: f32,
+    ratio_chroma_limit: f32,
+    ratio_prior: f32,
+    ratio_shrinkage: f32,
+    pad: [u32; 2],
+}
+
+/// What differs from frame to frame.
+pub(crate) struct Moment {
+    pub camera: CameraUniform,
+    pub previous: CameraUniform,
+    pub index: u32,
+    pub continued: bool,
+}
+
+impl FrameUniform {
+    pub fn new(size: [u32; 2], moment: &Moment, settings: &Settings) -> Self {
+        let f = &settings.filter;
+        #[cfg(feature = "path-tracer")]
+        let [seed, samples, bounces, roulette] = {
+            let t = &settings.tracer;
+            [t.seed, t.samples, t.bounces, t.roulette]
+        };
+        #[cfg(not(feature = "path-tracer"))]
+        let [seed, samples, bounces, roulette] = [0, 1, 0, 0];
+        // The noise-subtracting stop compares squares.
+        let sigma_luminance = match f.stops {
+            Stops::NoiseSubtracted => f.sigma_luminance * f.sigma_luminance,
+            Stops::Classic => f.sigma_luminance,
+        };
+        Self {
+            camera: moment.camera,
+            previous: moment.previous,
+            size,
+            strata: strata(size),
+            index: moment.index,
+            seed,
+            continued: u32::from(moment.continued),
+            samples,
+            bounces,
+            roulette,
+            alpha: f.alpha,
+            max_history: f.max_history,
+            history_power: f.history_power,
+            gradient_gamma: f.gradient_gamma,
+            sigma_luminance,
+            sigma_depth: f.sigma_depth,
+            sigma_normal: f.sigma_normal,
+            ridge: f.ridge,
+            // Constants of the history ratio, from the study in docs/filter.md: clamped to ¼…4, colour to 1½ of the
+            // luminance's ratio, a prior of 5 %, and the effective number of samples in the filtered pairs.
+            ratio_limit: 4.0,
+            ratio_chroma_limit: 1.5,
+            ratio_prior: 0.05,
+            ratio_shrinkage: 90.0,
+            pad: [0; 2],
+        }
+    }
+}

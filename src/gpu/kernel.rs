@@ -1,0 +1,174 @@
+//! A compiled shader whose bindings are known by name: the layout follows from the shader, which is the single truth.
+
+use super::compose::{Permutation, Shaders};
+use crate::Error;
+use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
+use wgpu::naga::{self, AddressSpace, ImageClass, Module, ScalarKind, StorageAccess, TypeInner};
+use wgpu::{
+    BindGroup, BindGroupDescriptor, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
+    BindingResource, BindingType, BufferBindingType, ComputePipeline, ComputePipelineDescriptor, Device,
+    PipelineCompilationOptions, PipelineLayoutDescriptor, ShaderModuleDescriptor, ShaderSource, ShaderStages,
+    StorageTextureAccess, TextureFormat, TextureSampleType, TextureViewDimension,
+};
+
+/// A pipeline and the names of its bindings.
+#[derive(Debug)]
+pub(crate) struct Kernel {
+    pub pipeline: ComputePipeline,
+    groups: Vec<(BindGroupLayout, Vec<(u32, String)>)>,
+    label: String,
+}
+
+/// A binding that a shader really uses.
+#[derive(Debug)]
+pub(crate) struct Used {
+    pub group: u32,
+    pub binding: u32,
+    pub name: String,
+    pub ty: BindingType,
+}
+
+impl Kernel {
+    pub fn new(device: &Device, shaders: &mut Shaders, permutation: Permutation) -> Result<Self, Error> {
+        let module = shaders.compose(permutation)?;
+        let used = used_bindings(&module).map_err(|message| Error::Shader {
+            shader: permutation.pass.name(),
+            features: format!("{:?}", permutation.features),
+            message,
+        })?;
+        let label = format!("asvgf {}", permutation.pass.name());
+        let group_count = used.iter().map(|u| u.group + 1).max().unwrap_or(0);
+        let groups: Vec<_> = (0..group_count)
+            .map(|group| {
+                let of_group = || used.iter().filter(move |u| u.group == group);
+                let entries: Vec<_> = of_group()
+                    .map(|u| BindGroupLayoutEntry {
+                        binding: u.binding,
+                        visibility: ShaderStages::COMPUTE,
+                        ty: u.ty,
+                        count: None,
+                    })
+                    .collect();
+                let layout = device
+                    .create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some(&label), entries: &entries });
+                (layout, of_group().map(|u| (u.binding, u.name.clone())).collect())
+            })
+            .collect();
+        let layouts: Vec<_> = groups.iter().map(|(layout, _)| Some(layout)).collect();
+        let layout = device.create_pipeline_layout(&PipelineLayoutDescriptor {
+            label: Some(&label),
+            bind_group_layouts: &layouts,
+            immediate_size: 0,
+        });
+        let module = device.create_shader_module(ShaderModuleDescriptor {
+            label: Some(&label),
+            source: ShaderSource::Naga(std::borrow::Cow::Owned(module)),
+        });
+        let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
+            label: Some(&label),
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some("main"),
+            // Every variable is assigned before it is read.
+            compilation_options: PipelineCompilationOptions {
+                zero_initialize_workgroup_memory: false,
+                ..Default::default()
+            },
+            cache: None,
+        });
+        Ok(Self { pipeline, groups, label })
+    }
+
+    /// Bind groups with what `resource` returns for each name.
+    ///
+    /// # Errors
+    /// The name for which there is nothing.
+    pub fn bind<'a>(
+        &self,
+        device: &Device,
+        resource: impl Fn(&str) -> Option<BindingResource<'a>>,
+    ) -> Result<Vec<BindGroup>, String> {
+        self.groups
+            .iter()
+            .map(|(layout, names)| {
+                let entries = names
+                    .iter()
+                    .map(|(binding, name)| {
+                        resource(name)
+                            .map(|resource| BindGroupEntry { binding: *binding, resource })
+                            .ok_or_else(|| name.clone())
+                    })
+                    .collect::<Result<Vec<_>, _>>()?;
+                Ok(device.create_bind_group(&BindGroupDescriptor { label: Some(&self.label), layout, entries: &entries }))
+            })
+            .collect()
+    }
+}
+
+/// Validates a module with nothing beyond core WebGPU and lists the bindings that its entry point reaches.
+pub(crate) fn used_bindings(module: &Module) -> Result<Vec<Used>, String> {
+    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(module)
+        .map_err(|e| format!("{:?}", e.into_inner()))?;
+    let entry = info.get_entry_point(0);
+    let mut used = Vec::new();
+    for (handle, variable) in module.global_variables.iter() {
+        let Some(binding) = variable.binding else { continue };
+        if entry[handle].is_empty() {
+            continue;
+        }
+        let name = plain_name(variable.name.as_deref().unwrap_or_default()).to_owned();
+        let ty = binding_type(module, variable).ok_or_else(|| format!("the binding `{name}` has an unknown type"))?;
+        used.push(Used { group: binding.group, binding: binding.binding, name, ty });
+    }
+    used.sort_by_key(|u| (u.group, u.binding));
+    Ok(used)
+}
+
+/// The composer appends the module's name to those of imported variables.
+fn plain_name(name: &str) -> &str {
+    name.split("X_naga_oil").next().unwrap_or(name)
+}
+
+fn binding_type(module: &Module, variable: &naga::GlobalVariable) -> Option<BindingType> {
+    let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+    match variable.space {
+        AddressSpace::Uniform => Some(buffer(BufferBindingType::Uniform)),
+        AddressSpace::Storage { access } => {
+            Some(buffer(BufferBindingType::Storage { read_only: !access.contains(StorageAccess::STORE) }))
+        }
+        _ => match module.types[variable.ty].inner {
+            TypeInner::Image { class: ImageClass::Sampled { kind, .. }, .. } => Some(BindingType::Texture {
+                sample_type: match kind {
+                    ScalarKind::Uint => TextureSampleType::Uint,
+                    ScalarKind::Sint => TextureSampleType::Sint,
+                    _ => TextureSampleType::Float { filterable: false },
+                },
+                view_dimension: TextureViewDimension::D2,
+                multisampled: false,
+            }),
+            TypeInner::Image { class: ImageClass::Storage { format, .. }, .. } => Some(BindingType::StorageTexture {
+                access: StorageTextureAccess::WriteOnly,
+                format: texture_format(format)?,
+                view_dimension: TextureViewDimension::D2,
+            }),
+            _ => None,
+        },
+    }
+}
+
+/// The storage formats that the shaders use.
+fn texture_format(format: naga::StorageFormat) -> Option<TextureFormat> {
+    use naga::StorageFormat as F;
+    Some(match format {
+        F::R32Uint => TextureFormat::R32Uint,
+        F::R32Float => TextureFormat::R32Float,
+        F::Rg32Uint => TextureFormat::Rg32Uint,
+        F::Rg32Float => TextureFormat::Rg32Float,
+        F::Rgba8Unorm => TextureFormat::Rgba8Unorm,
+        F::Rgba16Float => TextureFormat::Rgba16Float,
+        F::Rgba32Uint => TextureFormat::Rgba32Uint,
+        F::Rgba32Float => TextureFormat::Rgba32Float,
+        _ => return None,
+    })
+}

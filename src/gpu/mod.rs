@@ -1,0 +1,7 @@
+//! The machinery that carries a plan out: composed shaders, textures, uniforms, timing, readback.
+
+pub(crate) mod compose;
+pub(crate) mod frame;
+pub(crate) mod kernel;
+pub(crate) mod textures;
+pub(crate) mod timing;

@@ -1,0 +1,27 @@
+//! Real-time denoising of path-traced images: adaptive spatiotemporal variance-guided filtering (A-SVGF) in WGSL compute
+//! shaders on [`wgpu`].
+#![deny(missing_docs)]
+#![warn(missing_debug_implementations)]
+
+pub use wgpu;
+
+mod camera;
+mod denoiser;
+mod error;
+mod gpu;
+#[cfg(feature = "image")]
+pub mod image_io;
+mod passes;
+pub mod plan;
+#[cfg(feature = "path-tracer")]
+pub mod scene;
+mod settings;
+mod view;
+
+pub use camera::Camera;
+pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements};
+pub use error::Error;
+pub use gpu::timing::FrameTimes;
+pub use passes::Pass;
+pub use settings::*;
+pub use view::{View, ViewOptions};

@@ -1,0 +1,31 @@
+//! One spatial iteration, see shaders/atrous.wgsl.
+
+use super::{Pass, bindings};
+use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+
+const FEATURES: &[Feature] = &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit];
+
+/// Only the first iteration compares smoothed luminances and feeds the history.
+const FIRST: &[Feature] = &[Feature::Prefilter, Feature::Feedback];
+
+pub(crate) fn step(features: Features, iteration: u32) -> Step {
+    let first: &[Feature] = if iteration == 0 { FIRST } else { &[] };
+    let features = features.and(FEATURES.iter().chain(first).copied().collect());
+    let from = (iteration % 2) as u8;
+    Step {
+        pass: Pass::Atrous,
+        features,
+        grid: Grid::Pixels,
+        iteration,
+        bindings: bindings(
+            features,
+            [
+                ("guide", Slot::Now(Image::Guide), &[]),
+                ("color", Slot::Now(Image::Color(from)), &[]),
+                ("smoothed", Slot::Now(Image::Luminance), &[Feature::Prefilter]),
+                ("color_out", Slot::Now(Image::Color(1 - from)), &[]),
+                ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),
+            ],
+        ),
+    }
+}

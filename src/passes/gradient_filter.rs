@@ -1,0 +1,19 @@
+//! One iteration of the gradient's filter, see shaders/gradient_filter.wgsl.
+
+use super::Pass;
+use crate::plan::{Features, Grid, Image, Slot, Step};
+
+pub(crate) fn step(_: Features, iteration: u32) -> Step {
+    let from = (iteration % 2) as u8;
+    Step {
+        pass: Pass::GradientFilter,
+        features: Features::default(),
+        grid: Grid::Strata,
+        iteration,
+        bindings: vec![
+            ("samples", Slot::Now(Image::Samples)),
+            ("gradient", Slot::Now(Image::Gradient(from))),
+            ("gradient_out", Slot::Now(Image::Gradient(1 - from))),
+        ],
+    }
+}

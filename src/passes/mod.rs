@@ -1,0 +1,109 @@
+//! The passes, one file each, with the shader of the same name in shaders/.
+//!
+//! A pass says which of the plan's features its shader knows and which images stand behind its bindings. Group 0 holds those;
+//! group 1 holds the scene, bound by name.
+
+pub(crate) mod atrous;
+pub(crate) mod gradient;
+pub(crate) mod gradient_filter;
+pub(crate) mod gradient_pairs;
+pub(crate) mod gradient_pairs_filter;
+pub(crate) mod gradient_sample;
+pub(crate) mod resolve;
+pub(crate) mod temporal;
+#[cfg(feature = "path-tracer")]
+pub(crate) mod trace;
+pub(crate) mod variance;
+pub(crate) mod view;
+#[cfg(feature = "path-tracer")]
+pub(crate) mod visibility;
+
+use crate::plan::{Feature, Features};
+
+/// A compute shader of the pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Pass {
+    /// Primary rays: triangle, normal, depth and motion of each pixel.
+    #[cfg(feature = "path-tracer")]
+    Visibility,
+    /// Choice of the gradient's sample in each stratum.
+    GradientSample,
+    /// Paths: demodulated radiance, albedo, emission.
+    #[cfg(feature = "path-tracer")]
+    Trace,
+    /// Radiances of the repeated paths, now and before.
+    GradientPairs,
+    /// Their filter.
+    GradientPairsFilter,
+    /// Gradient and history ratio of each stratum.
+    Gradient,
+    /// The gradient's filter.
+    GradientFilter,
+    /// Reprojection and blending.
+    Temporal,
+    /// Variance of short histories.
+    Variance,
+    /// One spatial iteration.
+    Atrous,
+    /// The picture put together.
+    Resolve,
+    /// An intermediate shown.
+    View,
+}
+
+impl Pass {
+    /// The shader's file name without its ending.
+    pub fn name(self) -> &'static str {
+        match self {
+            #[cfg(feature = "path-tracer")]
+            Self::Visibility => "visibility",
+            Self::GradientSample => "gradient_sample",
+            #[cfg(feature = "path-tracer")]
+            Self::Trace => "trace",
+            Self::GradientPairs => "gradient_pairs",
+            Self::GradientPairsFilter => "gradient_pairs_filter",
+            Self::Gradient => "gradient",
+            Self::GradientFilter => "gradient_filter",
+            Self::Temporal => "temporal",
+            Self::Variance => "variance",
+            Self::Atrous => "atrous",
+            Self::Resolve => "resolve",
+            Self::View => "view",
+        }
+    }
+
+    pub(crate) fn source(self) -> &'static str {
+        match self {
+            #[cfg(feature = "path-tracer")]
+            Self::Visibility => include_str!("../../shaders/visibility.wgsl"),
+            Self::GradientSample => include_str!("../../shaders/gradient_sample.wgsl"),
+            #[cfg(feature = "path-tracer")]
+            Self::Trace => include_str!("../../shaders/trace.wgsl"),
+            Self::GradientPairs => include_str!("../../shaders/gradient_pairs.wgsl"),
+            Self::GradientPairsFilter => include_str!("../../shaders/gradient_pairs_filter.wgsl"),
+            Self::Gradient => include_str!("../../shaders/gradient.wgsl"),
+            Self::GradientFilter => include_str!("../../shaders/gradient_filter.wgsl"),
+            Self::Temporal => include_str!("../../shaders/temporal.wgsl"),
+            Self::Variance => include_str!("../../shaders/variance.wgsl"),
+            Self::Atrous => include_str!("../../shaders/atrous.wgsl"),
+            Self::Resolve => include_str!("../../shaders/resolve.wgsl"),
+            Self::View => include_str!("../../shaders/view.wgsl"),
+        }
+    }
+}
+
+/// What a shader that follows rays through the scene can have compiled in.
+#[cfg(feature = "path-tracer")]
+const GEOMETRY: &[Feature] = &[Feature::Instanced, Feature::Textures, Feature::ShadingNormals, Feature::AlphaMask];
+
+/// The bindings of a list whose features are all present.
+fn bindings<const N: usize>(
+    features: Features,
+    all: [(&'static str, crate::plan::Slot, &[Feature]); N],
+) -> Vec<(&'static str, crate::plan::Slot)> {
+    all.into_iter()
+        .filter(|(_, _, needed)| needed.iter().all(|&f| features.has(f)))
+        .map(|(name, slot, _)| (name, slot))
+        .collect()
+}

@@ -1,0 +1,47 @@
+//! Reprojection and blending, see shaders/temporal.wgsl.
+
+use super::{Pass, bindings};
+use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+
+const FEATURES: &[Feature] = &[
+    Feature::Objects,
+    Feature::Gradient,
+    Feature::Reshade,
+    Feature::HistoryRatio,
+    Feature::BlendByLambda,
+    Feature::Feedback,
+    Feature::VarianceOfMean,
+    Feature::Prefilter,
+];
+
+/// `gradient` is where the filtered gradient is, if there is one.
+pub(crate) fn step(features: Features, gradient: Option<Image>) -> Step {
+    let features = features.and(Features::of(FEATURES));
+    let gradient = gradient.unwrap_or(Image::Gradient(0));
+    Step {
+        pass: Pass::Temporal,
+        features,
+        grid: Grid::Pixels,
+        iteration: 0,
+        bindings: bindings(
+            features,
+            [
+                ("guide", Slot::Now(Image::Guide), &[]),
+                ("guide_previous", Slot::Before(Image::Guide), &[]),
+                ("motion", Slot::Now(Image::Motion), &[]),
+                ("object", Slot::Now(Image::Object), &[Feature::Objects]),
+                ("object_previous", Slot::Before(Image::Object), &[Feature::Objects]),
+                ("radiance", Slot::Now(Image::Radiance), &[]),
+                ("history_previous", Slot::Before(Image::History), &[]),
+                ("feedback_previous", Slot::Before(Image::Feedback), &[Feature::Feedback]),
+                ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),
+                ("samples", Slot::Now(Image::Samples), &[Feature::Gradient]),
+                ("gradient", Slot::Now(gradient), &[Feature::Gradient]),
+                ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
+                ("history_out", Slot::Now(Image::History), &[]),
+                ("color_out", Slot::Now(Image::Color(0)), &[]),
+                ("luminance_out", Slot::Now(Image::Luminance), &[Feature::Prefilter]),
+            ],
+        ),
+    }
+}

@@ -1,0 +1,68 @@
+//! An intermediate image shown, see shaders/view.wgsl.
+
+use super::{Pass, bindings};
+use crate::plan::{Feature, Features, Grid, Image, Plan, Slot, Step};
+use crate::{Error, Mode, View};
+use wgpu::TextureFormat;
+
+/// The step that shows a view of what a plan's steps have left, in a target of this format.
+pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -> Result<Step, Error> {
+    let missing = |reason| Err(Error::NoView { view, reason });
+    let has = |image| plan.images().iter().any(|(i, _)| *i == image);
+    let color = match (view, plan.color) {
+        (View::Denoised | View::NonFinite, Some(image)) => Slot::Now(image),
+        (View::Denoised | View::NonFinite, None) => return missing("nothing is filtered in this mode"),
+        _ => Slot::Target,
+    };
+    let gradient = match (view, plan.gradient) {
+        (View::Gradient, Some(image)) => Slot::Now(image),
+        (View::Gradient, None) => return missing("the gradient is off"),
+        _ => Slot::Target,
+    };
+    if matches!(view, View::Lambda | View::Alpha | View::HistoryLength | View::Variance) && mode != Mode::Denoise {
+        return missing("there is no history in this mode");
+    }
+    if view == View::TriangleId && !has(Image::Visibility) {
+        return missing("there is no visibility buffer");
+    }
+    let mut features = plan.features.and(Features::of(&[Feature::DirectEmission, Feature::BlendByLambda]));
+    if !matches!(view, View::Denoised | View::Noisy) {
+        features = features.without(Feature::DirectEmission);
+    }
+    if view != View::Alpha {
+        features = features.without(Feature::BlendByLambda);
+    }
+    match target {
+        TextureFormat::Rgba8Unorm => features = features.with(Feature::TargetPicture),
+        TextureFormat::Rgba16Float => features = features.with(Feature::TargetF16),
+        _ => {}
+    }
+    let all = bindings(
+        features,
+        [
+            ("color", color, &[]),
+            ("radiance", Slot::Now(Image::Radiance), &[]),
+            ("albedo", Slot::Now(Image::Albedo), &[]),
+            ("emission", Slot::Now(Image::Emission), &[Feature::DirectEmission]),
+            ("guide", Slot::Now(Image::Guide), &[]),
+            ("visibility", Slot::Now(Image::Visibility), &[]),
+            ("motion", Slot::Now(Image::Motion), &[]),
+            ("gradient", gradient, &[]),
+            ("history", Slot::Now(Image::History), &[]),
+            ("target_out", Slot::Target, &[]),
+        ],
+    );
+    let names: &[&str] = match view {
+        View::Denoised => &["color", "albedo", "emission"],
+        View::Noisy => &["radiance", "albedo", "emission"],
+        View::Albedo => &["albedo"],
+        View::Normal | View::Depth => &["guide"],
+        View::TriangleId => &["visibility"],
+        View::Motion => &["motion"],
+        View::Gradient => &["gradient"],
+        View::Lambda | View::Alpha | View::HistoryLength | View::Variance => &["history"],
+        View::NonFinite => &["color"],
+    };
+    let bindings = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name)).collect();
+    Ok(Step { pass: Pass::View, features, grid: Grid::Pixels, iteration: view as u32, bindings })
+}

@@ -1,0 +1,393 @@
+//! What to run and why, as plain data: a pure function of the scene's traits and the settings.
+//!
+//! The plan lists the passes in order, each with the features that are compiled into its shader and the images that it reads
+//! and writes. [`Denoiser`](crate::Denoiser) only carries it out.
+
+use crate::passes::{self, Pass};
+use crate::settings::{self, Blend, FilterSettings, Kernel, Mode, Settings, Stops, Variance};
+use std::collections::BTreeSet;
+use std::fmt;
+use wgpu::TextureFormat;
+
+/// What a scene has. Everything that is absent is left out of the shaders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Traits {
+    /// Meshes move or repeat: two levels of trees.
+    pub instanced: bool,
+    /// Materials have textures.
+    pub textures: bool,
+    /// Meshes have interpolated normals.
+    pub shading_normals: bool,
+    /// Some surface is not purely Lambertian.
+    pub specular: bool,
+    /// Some material is cut out by its opacity.
+    pub alpha_mask: bool,
+    /// Triangles emit light.
+    pub emitters: bool,
+    /// There are lights without area.
+    pub punctual_lights: bool,
+    /// There is an environment that is not black.
+    pub environment: bool,
+    /// Some material is shown unlit.
+    pub unlit: bool,
+}
+
+/// Something that is compiled into a shader or not. The names in WGSL are the same in capitals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+#[non_exhaustive]
+pub enum Feature {
+    /// Two levels of trees; placements of this and the last frame.
+    Instanced,
+    /// Image look-ups.
+    Textures,
+    /// Interpolated normals.
+    ShadingNormals,
+    /// GGX lobe.
+    Specular,
+    /// Opacity test during traversal.
+    AlphaMask,
+    /// Any light to sample.
+    Lights,
+    /// Emitting triangles.
+    Emitters,
+    /// Lights without area.
+    PunctualLights,
+    /// Light from infinity.
+    EnvironmentLight,
+    /// Emission towards the camera beside the filtered radiance.
+    DirectEmission,
+    /// Light samples without scattered rays.
+    LightSamplesOnly,
+    /// Scattered rays without light samples.
+    ScatteredRaysOnly,
+    /// Objects are told apart when reprojecting.
+    Objects,
+    /// The history is shortened by a gradient.
+    Gradient,
+    /// The gradient comes from repeated paths.
+    Reshade,
+    /// The gradient comes from analytic shading.
+    BlinnPhong,
+    /// The history is rescaled.
+    HistoryRatio,
+    /// α' = (1 − λ)·α + λ.
+    BlendByLambda,
+    /// The history's colour comes from the first spatial iteration.
+    Feedback,
+    /// The variance is that of the mean.
+    VarianceOfMean,
+    /// The first spatial iteration compares smoothed luminances.
+    Prefilter,
+    /// The published edge stops.
+    ClassicStops,
+    /// 25 taps instead of 13.
+    FullKernel,
+    /// Plane instead of mean.
+    LocalLinearFit,
+    /// The target shows the samples as they are.
+    Unfiltered,
+    /// The target shows the mean over frames.
+    Accumulate,
+    /// The target is rgba16float instead of rgba32float.
+    TargetF16,
+    /// The target is rgba8unorm and shows a tone-mapped picture.
+    TargetPicture,
+}
+
+impl Feature {
+    const ALL: [Self; 28] = {
+        use Feature::*;
+        [
+            Instanced, Textures, ShadingNormals, Specular, AlphaMask, Lights, Emitters, PunctualLights, EnvironmentLight,
+            DirectEmission, LightSamplesOnly, ScatteredRaysOnly, Objects, Gradient, Reshade, BlinnPhong, HistoryRatio,
+            BlendByLambda, Feedback, VarianceOfMean, Prefilter, ClassicStops, FullKernel, LocalLinearFit, Unfiltered,
+            Accumulate, TargetF16, TargetPicture,
+        ]
+    };
+
+    /// The name in WGSL: `LocalLinearFit` is `LOCAL_LINEAR_FIT`.
+    pub(crate) fn define(self) -> String {
+        let mut name = String::new();
+        for c in format!("{self:?}").chars() {
+            if c.is_uppercase() && !name.is_empty() {
+                name.push('_');
+            }
+            name.push(c.to_ascii_uppercase());
+        }
+        name
+    }
+}
+
+/// A set of [`Feature`]s.
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Features(u64);
+
+impl Features {
+    /// The features of a list.
+    pub fn of(features: &[Feature]) -> Self {
+        features.iter().copied().collect()
+    }
+
+    /// Whether a feature is in the set.
+    pub fn has(self, feature: Feature) -> bool {
+        self.0 >> feature as u8 & 1 == 1
+    }
+
+    /// The set with a feature.
+    #[must_use]
+    pub fn with(self, feature: Feature) -> Self {
+        Self(self.0 | 1 << feature as u8)
+    }
+
+    /// The set without a feature.
+    #[must_use]
+    pub fn without(self, feature: Feature) -> Self {
+        Self(self.0 & !(1 << feature as u8))
+    }
+
+    /// What is in both sets.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// The features in the set.
+    pub fn iter(self) -> impl Iterator<Item = Feature> {
+        Feature::ALL.into_iter().filter(move |&f| self.has(f))
+    }
+}
+
+impl FromIterator<Feature> for Features {
+    fn from_iter<I: IntoIterator<Item = Feature>>(iter: I) -> Self {
+        iter.into_iter().fold(Self::default(), Self::with)
+    }
+}
+
+impl fmt::Debug for Features {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.iter()).finish()
+    }
+}
+
+/// An image that passes hand to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Image {
+    /// Triangle number, u32.
+    Visibility,
+    /// Packed normal, depth.
+    Guide,
+    /// Motion and previous depth.
+    Motion,
+    /// Instance number.
+    Object,
+    /// This frame's demodulated radiance.
+    Radiance,
+    /// What it was divided by.
+    Albedo,
+    /// Emission towards the camera.
+    Emission,
+    /// Accumulated colour, variance, history length, λ.
+    History,
+    /// The history's colour, where it comes from the spatial filter.
+    Feedback,
+    /// Colour and variance between spatial iterations; two take turns.
+    Color(u8),
+    /// Smoothed luminance.
+    Luminance,
+    /// Records of the strata.
+    Samples,
+    /// Radiances now of the gradient's pairs; two take turns while they are filtered.
+    PairsNow(u8),
+    /// Radiances before.
+    PairsBefore(u8),
+    /// Products of both.
+    PairsProduct(u8),
+    /// Numerator and denominator of λ; two take turns.
+    Gradient(u8),
+    /// What the history is multiplied with.
+    Ratio,
+    /// Sum over frames and their number.
+    Sum,
+}
+
+/// How many texels an image has, or invocations a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Grid {
+    /// One per pixel.
+    Pixels,
+    /// One per stratum of 3×3 pixels.
+    Strata,
+}
+
+impl Image {
+    /// Format of the texture.
+    pub fn format(self) -> TextureFormat {
+        match self {
+            Self::Visibility | Self::Object => TextureFormat::R32Uint,
+            Self::Guide | Self::Radiance | Self::Emission | Self::Feedback => TextureFormat::Rg32Uint,
+            Self::History | Self::Samples => TextureFormat::Rgba32Uint,
+            Self::Albedo => TextureFormat::Rgba16Float,
+            Self::Luminance | Self::PairsProduct(_) => TextureFormat::R32Float,
+            Self::Gradient(_) => TextureFormat::Rg32Float,
+            Self::Motion | Self::Color(_) | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
+                TextureFormat::Rgba32Float
+            }
+        }
+    }
+
+    /// Its size.
+    pub fn grid(self) -> Grid {
+        match self {
+            Self::Samples
+            | Self::PairsNow(_)
+            | Self::PairsBefore(_)
+            | Self::PairsProduct(_)
+            | Self::Gradient(_)
+            | Self::Ratio => Grid::Strata,
+            _ => Grid::Pixels,
+        }
+    }
+}
+
+/// What a binding of a pass is bound to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Slot {
+    /// This frame's image.
+    Now(Image),
+    /// The previous frame's image.
+    Before(Image),
+    /// The host's target.
+    Target,
+}
+
+/// One dispatch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// The shader.
+    pub pass: Pass,
+    /// What is compiled into it.
+    pub features: Features,
+    /// Its invocations.
+    pub grid: Grid,
+    /// Which iteration of a filter, from 0: taps are 2ⁱ apart.
+    pub iteration: u32,
+    /// The images behind its bindings, by name.
+    pub bindings: Vec<(&'static str, Slot)>,
+}
+
+/// What to run in a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// The dispatches in order.
+    pub steps: Vec<Step>,
+    /// Everything that was decided to be in.
+    pub features: Features,
+    /// Where the filtered colour ends up, if anything is filtered.
+    pub color: Option<Image>,
+    /// Where the gradient ends up, if there is one.
+    pub gradient: Option<Image>,
+}
+
+impl Plan {
+    /// The passes that a path-traced frame needs.
+    #[cfg(feature = "path-tracer")]
+    pub fn path_traced(traits: &Traits, settings: &Settings, target: TextureFormat) -> Self {
+        let features = traced_features(traits, settings);
+        let features = if target == TextureFormat::Rgba16Float { features.with(Feature::TargetF16) } else { features };
+        let mut plan = Self { steps: vec![passes::visibility::step(features)], features, color: None, gradient: None };
+        let denoise = settings.mode == Mode::Denoise;
+        if denoise && features.has(Feature::Gradient) {
+            plan.steps.push(passes::gradient_sample::step(features));
+        }
+        plan.steps.push(passes::trace::step(features));
+        if denoise {
+            plan.filter(&settings.filter);
+        }
+        plan.steps.push(passes::resolve::step(features, plan.color));
+        plan
+    }
+
+    /// The passes from noisy radiance to filtered colour.
+    fn filter(&mut self, filter: &FilterSettings) {
+        let features = self.features;
+        if features.has(Feature::Gradient) {
+            let iterations = filter.gradient_iterations;
+            if features.has(Feature::HistoryRatio) {
+                self.steps.push(passes::gradient_pairs::step(features));
+                self.steps.extend((0..iterations).map(|i| passes::gradient_pairs_filter::step(features, i)));
+            }
+            self.steps.push(passes::gradient::step(features, (iterations % 2) as u8));
+            self.steps.extend((0..iterations).map(|i| passes::gradient_filter::step(features, i)));
+            self.gradient = Some(Image::Gradient((iterations % 2) as u8));
+        }
+        self.steps.push(passes::temporal::step(features, self.gradient));
+        if filter.iterations > 0 {
+            self.steps.push(passes::variance::step(features));
+        }
+        self.steps.extend((0..filter.iterations).map(|i| passes::atrous::step(features, i)));
+        self.color = Some(Image::Color((filter.iterations % 2) as u8));
+    }
+
+    /// The images that the steps use, each once, and whether the previous frame's is used too.
+    pub fn images(&self) -> Vec<(Image, bool)> {
+        let slots = || self.steps.iter().flat_map(|s| &s.bindings).map(|(_, slot)| *slot);
+        let before: BTreeSet<Image> =
+            slots().filter_map(|s| if let Slot::Before(i) = s { Some(i) } else { None }).collect();
+        let all: BTreeSet<Image> =
+            slots().filter_map(|s| if let Slot::Now(i) | Slot::Before(i) = s { Some(i) } else { None }).collect();
+        all.into_iter().map(|i| (i, before.contains(&i))).collect()
+    }
+}
+
+#[cfg(feature = "path-tracer")]
+fn traced_features(traits: &Traits, settings: &Settings) -> Features {
+    use crate::settings::Sampling;
+    use Feature::*;
+    let sampling = settings.tracer.sampling;
+    let lights = traits.emitters || traits.punctual_lights || traits.environment;
+    let scene = [
+        (Instanced, traits.instanced),
+        (Objects, traits.instanced),
+        (Textures, traits.textures),
+        (ShadingNormals, traits.shading_normals),
+        (Specular, traits.specular),
+        (AlphaMask, traits.alpha_mask),
+        (Lights, lights),
+        (Emitters, traits.emitters),
+        (PunctualLights, traits.punctual_lights),
+        (EnvironmentLight, traits.environment),
+        (DirectEmission, traits.emitters || traits.environment || traits.unlit),
+        (LightSamplesOnly, sampling == Sampling::Lights),
+        (ScatteredRaysOnly, sampling == Sampling::Scattered),
+        (Unfiltered, settings.mode != Mode::Denoise),
+        (Accumulate, settings.mode == Mode::Reference),
+    ];
+    let chosen: Features = scene.into_iter().filter(|(_, on)| *on).map(|(f, _)| f).collect();
+    if settings.mode == Mode::Denoise { chosen.iter().chain(filter_features(&settings.filter).iter()).collect() } else { chosen }
+}
+
+fn filter_features(filter: &FilterSettings) -> Features {
+    use Feature::*;
+    let reshade = filter.gradient == settings::Gradient::Reshade;
+    let spatial = filter.iterations > 0;
+    [
+        (Gradient, filter.gradient != settings::Gradient::Off),
+        (Reshade, reshade),
+        (BlinnPhong, filter.gradient == settings::Gradient::BlinnPhong),
+        // An analytic pair is blind to what blocks a light: its ratio would rescale shadows too.
+        (HistoryRatio, reshade && filter.history_ratio),
+        (BlendByLambda, filter.blend == Blend::Lambda),
+        (Feedback, spatial && filter.feedback),
+        (VarianceOfMean, filter.variance == Variance::OfMean),
+        (Prefilter, spatial && filter.luminance_prefilter),
+        (ClassicStops, filter.stops == Stops::Classic),
+        (FullKernel, filter.kernel == Kernel::Full),
+        (LocalLinearFit, filter.local_linear_fit),
+    ]
+    .into_iter()
+    .filter(|(_, on)| *on)
+    .map(|(f, _)| f)
+    .collect()
+}

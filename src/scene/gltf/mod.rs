@@ -1,0 +1,48 @@
+//! glTF 2.0: `.gltf` with external or embedded data, and `.glb`.
+//!
+//! The `gltf` crate reads the JSON. Its own validation is not used: it refuses files that are common and harmless
+//! (a root of the scene that is another node's child, quantised attributes), so that everything is checked where it is
+//! read, here.
+
+mod accessor;
+mod animation;
+mod buffer;
+mod container;
+mod image;
+mod material;
+mod mesh;
+mod node;
+mod source;
+
+use std::path::Path;
+
+use crate::image_io::read_file;
+use crate::scene::description::{Scene, SceneError};
+use crate::scene::load::Loaded;
+use crate::scene::load::folder::Folder;
+use crate::scene::load::report::{Fault, Report};
+use source::Source;
+
+/// Reads a glTF file.
+pub(crate) fn load(path: &Path) -> Result<Loaded, SceneError> {
+    let mut report = Report::new(path);
+    match read(path, &mut report) {
+        Ok(scene) => report.finish(scene),
+        Err(fault) => Err(report.error(fault)),
+    }
+}
+
+fn read(path: &Path, report: &mut Report) -> Result<Scene, Fault> {
+    let unreadable = |reason: String| Fault::new("file", reason);
+    let folder = Folder::of(path).map_err(|error| unreadable(format!("cannot be read: {error}")))?;
+    let bytes = read_file(path).map_err(unreadable)?;
+    let container = container::open(&bytes, report)?;
+    let buffers = buffer::read_all(&container.root, container.binary, &folder)?;
+    let source = Source { root: container.root, buffers, folder };
+
+    let mut scene = Scene::default();
+    material::read_all(&source, report, &mut scene)?;
+    let places = node::read_all(&source, report, &mut scene)?;
+    animation::read_all(&source, report, &mut scene, &places)?;
+    Ok(scene)
+}

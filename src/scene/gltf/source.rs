@@ -1,0 +1,48 @@
+//! The parts of an opened file.
+
+use std::rc::Rc;
+
+use gltf::json::{Index, Root, buffer::View};
+
+use crate::scene::load::folder::Folder;
+use crate::scene::load::report::Fault;
+
+/// An opened file: its JSON, its bytes and its folder.
+pub(super) struct Source {
+    pub root: Root,
+    pub buffers: Vec<Rc<[u8]>>,
+    pub folder: Folder,
+}
+
+impl Source {
+    /// What an index refers to; `user` is the element that holds the index.
+    pub fn get<T>(&self, index: Index<T>, user: &str) -> Result<&T, Fault>
+    where
+        Root: AsRef<[T]>,
+    {
+        lookup(self.root.as_ref(), index, user)
+    }
+
+    /// The bytes of a buffer view.
+    pub fn view(&self, index: Index<View>, user: &str) -> Result<(&View, &[u8]), Fault> {
+        let view = self.get(index, user)?;
+        let fault = |reason| Fault::new(format!("bufferViews[{index}]"), reason);
+        let buffer = self.buffers.get(view.buffer.value()).ok_or_else(|| {
+            fault(format!("buffer {} is out of range: the file has {}", view.buffer, self.buffers.len()))
+        })?;
+        let (start, length) = (view.byte_offset.map_or(0, |offset| offset.0), view.byte_length.0);
+        let range =
+            usize::try_from(start).ok().zip(start.checked_add(length).and_then(|end| usize::try_from(end).ok()));
+        let bytes = range.and_then(|(start, end)| buffer.get(start..end)).ok_or_else(|| {
+            fault(format!("{length} bytes from {start} on are not within its buffer of {} bytes", buffer.len()))
+        })?;
+        Ok((view, bytes))
+    }
+}
+
+/// What an index into a list refers to; `user` is the element that holds the index.
+pub(super) fn lookup<'a, T>(items: &'a [T], index: Index<T>, user: &str) -> Result<&'a T, Fault> {
+    items
+        .get(index.value())
+        .ok_or_else(|| Fault::new(user, format!("index {index} is out of range: the file has {}", items.len())))
+}

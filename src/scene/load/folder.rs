@@ -1,0 +1,71 @@
+//! Files next to a scene file. A scene file may come from anywhere, so that what it names is not to be trusted: it
+//! may only name files in its own folder.
+
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+/// The folder that a scene file may refer to.
+pub(crate) struct Folder {
+    root: PathBuf,
+}
+
+impl Folder {
+    /// The folder that holds `file`.
+    pub fn of(file: &Path) -> io::Result<Self> {
+        let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Ok(Self { root: parent.canonicalize()? })
+    }
+
+    /// The file that a relative, percent-encoded URI stands for. The error is a reason.
+    #[cfg(feature = "gltf")]
+    pub fn locate_uri(&self, uri: &str) -> Result<PathBuf, String> {
+        let decoded = percent_decode(uri).ok_or_else(|| format!("\"{uri}\" is not a well-formed URI"))?;
+        self.locate(&decoded)
+    }
+
+    /// The file that a relative path stands for. The error is a reason.
+    pub fn locate(&self, name: &str) -> Result<PathBuf, String> {
+        let outside = || format!("\"{name}\" is not within the folder of the scene file, and is not read");
+        if has_scheme(name) || name.starts_with(['/', '\\']) || name.contains('\0') {
+            return Err(outside());
+        }
+        let mut depth = 0_usize;
+        for component in Path::new(name).components() {
+            depth = match component {
+                Component::Normal(_) => depth + 1,
+                Component::CurDir => depth,
+                Component::ParentDir => depth.checked_sub(1).ok_or_else(outside)?,
+                Component::Prefix(_) | Component::RootDir => return Err(outside()),
+            };
+        }
+        let path =
+            self.root.join(name).canonicalize().map_err(|error| format!("\"{name}\" cannot be read: {error}"))?;
+        // Links were followed by now, and they may lead anywhere.
+        if path.starts_with(&self.root) { Ok(path) } else { Err(outside()) }
+    }
+}
+
+/// Whether a URI starts with a scheme (`https:`, `file:`) or a Windows drive.
+fn has_scheme(uri: &str) -> bool {
+    uri.split_once(':').is_some_and(|(scheme, _)| {
+        scheme.starts_with(|c: char| c.is_ascii_alphabetic())
+            && scheme.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.'))
+    })
+}
+
+/// Replaces `%20` and the like. `None` for an incomplete escape, or where the result is not UTF-8.
+#[cfg(feature = "gltf")]
+fn percent_decode(uri: &str) -> Option<String> {
+    let mut decoded = Vec::with_capacity(uri.len());
+    let mut bytes = uri.bytes();
+    while let Some(byte) = bytes.next() {
+        decoded.push(match byte {
+            b'%' => {
+                let mut digit = || char::from(bytes.next()?).to_digit(16);
+                u8::try_from(digit()? * 16 + digit()?).ok()?
+            }
+            other => other,
+        });
+    }
+    String::from_utf8(decoded).ok()
+}

@@ -1,0 +1,78 @@
+//! What an importer has to say about one file.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use crate::scene::description::{Scene, SceneError, Warning};
+use crate::scene::load::Loaded;
+
+/// What is wrong with an element. [`Report::error`] adds the file.
+#[derive(Debug)]
+pub(crate) struct Fault {
+    pub element: String,
+    pub reason: String,
+}
+
+impl Fault {
+    pub fn new(element: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self { element: element.into(), reason: reason.into() }
+    }
+}
+
+/// Collects the warnings about a file and completes its errors.
+pub(crate) struct Report {
+    file: String,
+    warnings: Vec<Warning>,
+    said: HashSet<String>,
+}
+
+impl Report {
+    pub fn new(file: &Path) -> Self {
+        Self { file: file.display().to_string(), warnings: Vec::new(), said: HashSet::new() }
+    }
+
+    pub fn warn(&mut self, element: impl Into<String>, reason: impl Into<String>) {
+        self.warnings.push(Warning { element: element.into(), reason: reason.into() });
+    }
+
+    /// Warns unless the same reason was given before: for what a file does in many places, the first is named.
+    pub fn warn_once(&mut self, element: impl Into<String>, reason: impl Into<String>) {
+        let reason = reason.into();
+        if self.said.insert(reason.clone()) {
+            self.warn(element, reason);
+        }
+    }
+
+    /// `value` brought into 0…1, with a warning where that changes it visibly.
+    pub fn clamp_unit(&mut self, value: f32, element: impl FnOnce() -> String) -> f32 {
+        let clamped = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
+        // Exporters that convert between colour spaces overshoot by rounding errors.
+        let visible = value.is_nan() || (value - clamped).abs() > 1e-4;
+        if visible {
+            self.warn(element(), format!("{value} is outside 0…1; {clamped} is used"));
+        }
+        clamped
+    }
+
+    /// `value` without negative or infinite parts, with a warning where that changes it.
+    pub fn clamp_radiance(&mut self, value: [f32; 3], element: impl FnOnce() -> String) -> [f32; 3] {
+        let clamped = value.map(|x| if x.is_nan() { 0.0 } else { x.clamp(0.0, f32::MAX) });
+        if clamped != value {
+            self.warn(element(), format!("{value:?} is not finite and ≥ 0; {clamped:?} is used"));
+        }
+        clamped
+    }
+
+    pub fn error(&self, fault: Fault) -> SceneError {
+        SceneError { file: self.file.clone(), element: fault.element, reason: fault.reason }
+    }
+
+    /// Hands the scene out once it keeps all the rules of [`Scene::validate`].
+    pub fn finish(mut self, scene: Scene) -> Result<Loaded, SceneError> {
+        scene.validate().map_err(|error| self.error(Fault::new(error.element, error.reason)))?;
+        if scene.triangle_count() == 0 {
+            self.warn("file", "nothing in it can be drawn: it places no triangles");
+        }
+        Ok(Loaded { scene, warnings: self.warnings })
+    }
+}

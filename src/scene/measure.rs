@@ -1,0 +1,54 @@
+//! Sizes of a scene in world space.
+
+use glam::{DMat4, DVec3, Mat4};
+
+use crate::scene::description::{Mesh, Pose, Scene};
+
+impl Scene {
+    /// Triangles that are drawn: a mesh counts once for each node that places it.
+    pub fn triangle_count(&self) -> usize {
+        self.nodes
+            .iter()
+            .flat_map(|node| &node.meshes)
+            .filter_map(|&mesh| self.meshes.get(mesh))
+            .map(|mesh| mesh.triangles.len())
+            .sum()
+    }
+
+    /// Area of all placed triangles in square metres, one side counted.
+    pub fn surface_area(&self, pose: &Pose) -> f64 {
+        let mut twice = 0.0;
+        self.for_each_triangle(pose, |[a, b, c]| twice += (b - a).cross(c - a).length());
+        0.5 * twice
+    }
+
+    /// Smallest and largest corner of the box around all placed triangles; `None` where there is no triangle.
+    pub fn bounds(&self, pose: &Pose) -> Option<[[f32; 3]; 2]> {
+        let mut bounds: Option<[DVec3; 2]> = None;
+        self.for_each_triangle(pose, |corners| {
+            let [low, high] = bounds.unwrap_or([corners[0]; 2]);
+            bounds = Some(corners.iter().fold([low, high], |[low, high], &corner| [low.min(corner), high.max(corner)]));
+        });
+        bounds.map(|corners| corners.map(|corner| corner.as_vec3().to_array()))
+    }
+
+    /// Calls `visit` with the world-space corners of every placed triangle. Indices that lead nowhere are passed over.
+    fn for_each_triangle(&self, pose: &Pose, mut visit: impl FnMut([DVec3; 3])) {
+        for (node, world) in self.nodes.iter().zip(&pose.world) {
+            // Double precision: the sum of many small areas, and products of large coordinates.
+            let world: DMat4 = Mat4::from_cols_array_2d(world).as_dmat4();
+            for mesh in node.meshes.iter().filter_map(|&mesh| self.meshes.get(mesh)) {
+                let corner = |index: u32| Some(world.transform_point3(position(mesh, index)?));
+                for &[a, b, c] in &mesh.triangles {
+                    if let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) {
+                        visit([a, b, c]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn position(mesh: &Mesh, index: u32) -> Option<DVec3> {
+    mesh.positions.get(index as usize).map(|&[x, y, z]| DVec3::new(x.into(), y.into(), z.into()))
+}

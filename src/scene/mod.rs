@@ -1,0 +1,28 @@
+//! What the path tracer draws: a plain description, importers, built-in scenes, and its upload to the GPU.
+
+mod alias;
+mod bvh;
+mod description;
+mod geometry;
+mod lights;
+mod measure;
+mod pose;
+mod texels;
+mod upload;
+mod validate;
+
+pub mod builtin;
+#[cfg(feature = "image")]
+mod environment;
+#[cfg(feature = "gltf")]
+mod gltf;
+#[cfg(any(feature = "gltf", feature = "obj"))]
+mod load;
+#[cfg(feature = "obj")]
+mod obj;
+
+pub use description::*;
+#[cfg(any(feature = "gltf", feature = "obj"))]
+pub use load::{Loaded, load};
+pub use pose::CameraView;
+pub use upload::GpuScene;

@@ -1,0 +1,215 @@
+//! Where everything is at one moment: animation curves and the node hierarchy.
+
+use glam::{Mat4, Quat, Vec3, Vec4};
+
+use crate::scene::description::{Animation, Channel, Interpolation, Matrix, Pose, Scene, Target, Transform};
+
+/// A camera placed in the world, as the arguments of a look-at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraView {
+    /// Position, in metres.
+    pub eye: [f32; 3],
+    /// A point one metre ahead of the eye.
+    pub target: [f32; 3],
+    /// Unit vector that is up in the picture, perpendicular to the view direction.
+    pub up: [f32; 3],
+    /// Vertical field of view in radians, 0 < fov < π.
+    pub fov_y: f32,
+}
+
+impl Scene {
+    /// Evaluates the hierarchy at `time` seconds of an animation, which repeats for ever: the time is taken modulo
+    /// [`Scene::duration`]. Before its first key a curve holds the first value, after its last key the last one.
+    ///
+    /// `None`, an index that does not exist, or a time that is not finite gives the rest pose (factors of 1).
+    pub fn pose(&self, animation: Option<usize>, time: f32) -> Pose {
+        let mut locals: Vec<Local> = self.nodes.iter().map(|node| Local::new(node.transform)).collect();
+        let mut emission = vec![1.0; self.materials.len()];
+        let mut intensity = vec![1.0; self.lights.len()];
+
+        if let Some(playing) = animation.and_then(|index| self.animations.get(index)).filter(|_| time.is_finite()) {
+            let time = looped(time, playing.duration());
+            for channel in &playing.channels {
+                let Some(value) = channel.sample(time) else { continue };
+                match channel.target {
+                    Target::Translation(node) => set(&mut locals, node, |local| local.translation = value.truncate()),
+                    Target::Rotation(node) => set(&mut locals, node, |local| local.rotation = unit(value)),
+                    Target::Scale(node) => set(&mut locals, node, |local| local.scale = value.truncate()),
+                    Target::Emission(material) => set(&mut emission, material, |factor| *factor = value.x.max(0.0)),
+                    Target::Intensity(light) => set(&mut intensity, light, |factor| *factor = value.x.max(0.0)),
+                }
+            }
+        }
+
+        let mut world: Vec<Mat4> = Vec::with_capacity(self.nodes.len());
+        for (node, local) in self.nodes.iter().zip(&locals) {
+            // Parents come first, so that one pass suffices.
+            let parent = node.parent.and_then(|parent| world.get(parent)).copied().unwrap_or(Mat4::IDENTITY);
+            world.push(parent * local.matrix());
+        }
+        Pose { world: world.iter().map(Mat4::to_cols_array_2d).collect(), emission, intensity }
+    }
+
+    /// Last key time of an animation in seconds: the time after which [`Scene::pose`] repeats. 0 for `None`, for an
+    /// index that does not exist and for an animation that is one key at time 0: then nothing moves.
+    pub fn duration(&self, animation: Option<usize>) -> f32 {
+        animation.and_then(|index| self.animations.get(index)).map_or(0.0, Animation::duration)
+    }
+
+    /// Index of the first animation of that name.
+    pub fn find_animation(&self, name: &str) -> Option<usize> {
+        self.animations.iter().position(|animation| animation.name == name)
+    }
+
+    /// For each node, whether it may ever move: it is [`movable`](crate::scene::Node::movable), a channel of any
+    /// animation moves it, or its parent may move.
+    pub fn animated_nodes(&self) -> Vec<bool> {
+        let mut moves: Vec<bool> = self.nodes.iter().map(|node| node.movable).collect();
+        for channel in self.animations.iter().flat_map(|animation| &animation.channels) {
+            if let Some(node) = channel.target.node() {
+                set(&mut moves, node, |moves| *moves = true);
+            }
+        }
+        for index in 0..moves.len() {
+            let parent = self.nodes.get(index).and_then(|node| node.parent);
+            let inherited = parent.and_then(|parent| moves.get(parent)).copied().unwrap_or(false);
+            set(&mut moves, index, |moves| *moves |= inherited);
+        }
+        moves
+    }
+
+    /// The first node that holds a camera.
+    pub fn camera_node(&self) -> Option<usize> {
+        self.nodes.iter().position(|node| node.camera.is_some())
+    }
+
+    /// What the camera of a node sees in a pose. `None` where the node has no camera or its matrix leaves no view
+    /// direction (a scale of zero).
+    pub fn camera_view(&self, pose: &Pose, node: usize) -> Option<CameraView> {
+        let camera = self.cameras.get(self.nodes.get(node)?.camera?)?;
+        let world = Mat4::from_cols_array_2d(pose.world.get(node)?);
+        let eye = world.w_axis.truncate();
+        let forward = (-world.z_axis.truncate()).try_normalize()?;
+        let up = world.y_axis.truncate();
+        let up = (up - forward * up.dot(forward)).try_normalize()?;
+        Some(CameraView {
+            eye: eye.to_array(),
+            target: (eye + forward).to_array(),
+            up: up.to_array(),
+            fov_y: camera.fov_y,
+        })
+    }
+}
+
+impl Animation {
+    /// Last key time of all channels in seconds, never below 0.
+    fn duration(&self) -> f32 {
+        self.channels.iter().filter_map(|channel| channel.times.last()).fold(0.0, |last, &time| last.max(time))
+    }
+}
+
+impl Target {
+    /// The node that this target moves, if it is one.
+    pub(crate) fn node(self) -> Option<usize> {
+        match self {
+            Self::Translation(node) | Self::Rotation(node) | Self::Scale(node) => Some(node),
+            Self::Emission(_) | Self::Intensity(_) => None,
+        }
+    }
+}
+
+impl Channel {
+    /// Value at `time`, held outside the keys. `None` where keys or values are missing.
+    fn sample(&self, time: f32) -> Option<Vec4> {
+        let after = self.times.partition_point(|&key| key <= time);
+        let Some(before) = after.checked_sub(1) else { return self.value(0) };
+        let (Some(&from), Some(&to)) = (self.times.get(before), self.times.get(after)) else {
+            return self.value(before);
+        };
+        let span = to - from;
+        let t = if span > 0.0 { (time - from) / span } else { 0.0 };
+        match self.interpolation {
+            Interpolation::Step => self.value(before),
+            Interpolation::Linear => {
+                let (a, b) = (self.value(before)?, self.value(after)?);
+                Some(match self.target {
+                    // glam's slerp takes the short way round, as glTF asks for.
+                    Target::Rotation(_) => Vec4::from(unit(a).slerp(unit(b), t)),
+                    _ => a.lerp(b, t),
+                })
+            }
+            Interpolation::CubicSpline => {
+                let (a, b) = (self.value(before)?, self.value(after)?);
+                let (leaving, arriving) = (self.key(3 * before + 2)? * span, self.key(3 * after)? * span);
+                let (t2, t3) = (t * t, t * t * t);
+                Some(
+                    a * (2.0 * t3 - 3.0 * t2 + 1.0)
+                        + leaving * (t3 - 2.0 * t2 + t)
+                        + b * (3.0 * t2 - 2.0 * t3)
+                        + arriving * (t3 - t2),
+                )
+            }
+        }
+    }
+
+    /// Value of a key, without its tangents.
+    fn value(&self, key: usize) -> Option<Vec4> {
+        match self.interpolation {
+            Interpolation::CubicSpline => self.key(3 * key + 1),
+            Interpolation::Step | Interpolation::Linear => self.key(key),
+        }
+    }
+
+    fn key(&self, index: usize) -> Option<Vec4> {
+        self.values.get(index).copied().map(Vec4::from)
+    }
+}
+
+/// A node's own transform while channels are applied to it.
+struct Local {
+    translation: Vec3,
+    rotation: Quat,
+    scale: Vec3,
+    /// Stands for the three above, in a node that cannot be animated.
+    fixed: Option<Matrix>,
+}
+
+impl Local {
+    fn new(transform: Transform) -> Self {
+        match transform {
+            Transform::Trs { translation, rotation, scale } => Self {
+                translation: translation.into(),
+                rotation: unit(rotation.into()),
+                scale: scale.into(),
+                fixed: None,
+            },
+            Transform::Matrix(matrix) => {
+                Self { translation: Vec3::ZERO, rotation: Quat::IDENTITY, scale: Vec3::ONE, fixed: Some(matrix) }
+            }
+        }
+    }
+
+    fn matrix(&self) -> Mat4 {
+        match &self.fixed {
+            Some(matrix) => Mat4::from_cols_array_2d(matrix),
+            None => Mat4::from_scale_rotation_translation(self.scale, self.rotation, self.translation),
+        }
+    }
+}
+
+/// The rotation nearest to a quaternion of any length; none at all for length zero.
+fn unit(quaternion: Vec4) -> Quat {
+    Quat::from_vec4(quaternion.try_normalize().unwrap_or(Vec4::W))
+}
+
+/// `time` within 0…`duration`, or 0 where nothing repeats.
+fn looped(time: f32, duration: f32) -> f32 {
+    if duration > 0.0 { time.rem_euclid(duration) } else { 0.0 }
+}
+
+/// Changes one element, if there is such an element.
+fn set<T>(items: &mut [T], index: usize, change: impl FnOnce(&mut T)) {
+    if let Some(item) = items.get_mut(index) {
+        change(item);
+    }
+}

@@ -1,0 +1,505 @@
+//! The scene on the GPU, laid out as shaders/shared/scene.wgsl reads it.
+
+use super::bvh;
+use super::geometry::{self, Geometry};
+use super::lights::{self, AnalyticLight, GpuLight};
+use super::texels::{self, GpuTexture, Place};
+use super::{Alpha, Light, Material, Matrix, Pose, Scene, SceneError};
+use crate::plan::Traits;
+use bytemuck::{Pod, Zeroable};
+use glam::{Mat4, Vec3, Vec4};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::sync::atomic::{AtomicU64, Ordering};
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+use wgpu::{Buffer, BufferUsages, Device};
+
+/// Lights that the Blinn–Phong gradient evaluates; the strongest are kept.
+const ANALYTIC_LIGHTS: usize = 64;
+
+/// Slots of the traversal's stack: no tree that obvhs builds over real geometry comes near.
+const LARGEST_STACK: u32 = 64;
+
+/// A [`Scene`] on the GPU: geometry and its trees once; placements, materials and lights of this frame and the last.
+///
+/// Each mesh is stored once. What stands still is gathered into one tree in world space; meshes that move or repeat get
+/// trees of their own under a second level, which is rebuilt when something moved.
+#[derive(Debug)]
+pub struct GpuScene {
+    id: u64,
+    revision: u64,
+    traits: Traits,
+    stack: u32,
+    pose: Pose,
+    instances: Vec<Instance>,
+    emitters: Vec<Emitter>,
+    light_table: Vec<GpuLight>,
+    /// Place in the light table of the first of `punctual`, which follow each other.
+    first_punctual: usize,
+    punctual: Vec<Punctual>,
+    materials: Vec<Material>,
+    images: Vec<Place>,
+    header: Header,
+    buffers: Buffers,
+    triangles: usize,
+}
+
+#[derive(Debug)]
+struct Buffers {
+    scene: Buffer,
+    nodes: Buffer,
+    triangles: Buffer,
+    attributes: Buffer,
+    texels: Buffer,
+    instances: Buffer,
+    materials: Buffer,
+    lights: Buffer,
+    analytic_lights: Buffer,
+    analytic_lights_previous: Buffer,
+}
+
+/// A tree placed in the world.
+#[derive(Debug)]
+struct Instance {
+    /// The node that places it; `None` for the static geometry, which is in world space already.
+    node: Option<usize>,
+    root: u32,
+    first_row: u32,
+    /// First number in the visibility buffer.
+    first_id: u32,
+    first_light: u32,
+    bounds: [[f32; 3]; 2],
+}
+
+/// The triangles of one instance that share an emitting material, as the analytic gradient sees them.
+#[derive(Debug, Default)]
+struct Emitter {
+    node: Option<usize>,
+    material: usize,
+    /// Σ area · centre and Σ area · normal, in the space of the node.
+    centre: Vec3,
+    normal: Vec3,
+    area: f32,
+}
+
+/// A light without area and the node that places it.
+#[derive(Debug)]
+struct Punctual {
+    node: usize,
+    index: usize,
+    light: Light,
+}
+
+/// `Scene` of scene.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+struct Header {
+    instances: u32,
+    instance_count: u32,
+    light_count: u32,
+    environment_light: u32,
+    environment_texels: u32,
+    environment_alias: u32,
+    environment_width: u32,
+    environment_height: u32,
+    attribute_stride: u32,
+    uv0: u32,
+    uv1: u32,
+    environment_density: f32,
+}
+
+/// `Material` of scene.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+struct GpuMaterial {
+    base_color: [f32; 4],
+    emissive: [f32; 3],
+    flags: u32,
+    metallic: f32,
+    roughness: f32,
+    specular: f32,
+    cutoff: f32,
+    base_color_texture: GpuTexture,
+    metallic_roughness_texture: GpuTexture,
+    emissive_texture: GpuTexture,
+}
+
+impl GpuScene {
+    /// Builds the trees and uploads everything at rest. [`GpuScene::update`] then moves it.
+    ///
+    /// # Errors
+    /// [`Scene::validate`]'s, and one that names the part of the scene that is larger than the device's storage bindings.
+    pub fn new(device: &Device, scene: &Scene) -> Result<Self, SceneError> {
+        scene.validate()?;
+        let pose = scene.pose(None, 0.0);
+        let mut geometry = Geometry::new(scene);
+        let mut traits = geometry::traits(scene, geometry.layout);
+        let mut instances = Vec::new();
+        let mut light_table = Vec::new();
+        let mut powers = Vec::new();
+        let mut emitters = BTreeMap::<(usize, usize), Emitter>::new();
+        let mut next_id = 0;
+        for group in geometry::groups(scene, &pose.world) {
+            let built = geometry.add(scene, &group);
+            let nodes: Vec<Option<usize>> =
+                if group.nodes.is_empty() { vec![None] } else { group.nodes.iter().copied().map(Some).collect() };
+            for node in nodes {
+                let placement = node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
+                let first_light = light_table.len() as u32;
+                for &(row, face) in &built.emitters {
+                    let material = scene.meshes[face.mesh].material;
+                    let instance = instances.len();
+                    light_table.push(GpuLight {
+                        kind: lights::EMITTER,
+                        triangle: row,
+                        instance: instance as u32,
+                        ..Default::default()
+                    });
+                    let [a, b, c] = face.corners.map(|p| placement.transform_point3(p));
+                    let area = 0.5 * f64::from((b - a).cross(c - a).length());
+                    powers.push(area * PI * lights::luminance(scene.materials[material].emissive));
+                    let emitter = emitters
+                        .entry((instance, material))
+                        .or_insert_with(|| Emitter { node, material, ..Default::default() });
+                    emitter.add(face.corners, face.area_normal());
+                }
+                instances.push(Instance {
+                    node,
+                    root: built.root,
+                    first_row: built.first_row,
+                    first_id: next_id,
+                    first_light,
+                    bounds: built.bounds,
+                });
+                next_id += group.faces.len() as u32;
+            }
+        }
+        let radius = scene.bounds(&pose).map_or(1.0, |[low, high]| f64::from(Vec3::from(low).distance(high.into())) / 2.0);
+        let first_punctual = light_table.len();
+        let mut punctual = Vec::new();
+        for (node, description) in scene.nodes.iter().enumerate() {
+            if let Some(index) = description.light {
+                let light = scene.lights[index];
+                punctual.push(Punctual { node, index, light });
+                light_table.push(GpuLight::default());
+                powers.push(lights::punctual_power(&light, radius));
+            }
+        }
+        let mut words = Vec::new();
+        let images = texels::add_images(&scene.images, &mut words);
+        let layout = geometry.layout;
+        let mut header = Header {
+            instance_count: instances.len() as u32,
+            environment_light: u32::MAX,
+            attribute_stride: layout.stride as u32,
+            uv0: layout.uv[0].unwrap_or(0) as u32,
+            uv1: layout.uv[1].unwrap_or(0) as u32,
+            ..Default::default()
+        };
+        let mut environment_weight = 0.0;
+        if let Some(environment) = &scene.environment {
+            let place = texels::add_environment(environment, &mut words);
+            environment_weight = place.weight;
+            if place.weight > 0.0 {
+                header.environment_light = light_table.len() as u32;
+                header.environment_texels = place.radiance;
+                header.environment_alias = place.alias;
+                header.environment_width = environment.width;
+                header.environment_height = environment.height;
+                light_table.push(GpuLight { kind: lights::ENVIRONMENT, ..Default::default() });
+                powers.push(place.weight * PI * radius * radius);
+            }
+        }
+        traits.instanced = instances.len() > 1 || instances.iter().any(|i| i.node.is_some());
+        traits.punctual_lights = !punctual.is_empty();
+        traits.environment = environment_weight > 0.0;
+        traits.emitters &= first_punctual > 0;
+        lights::assign_probabilities(&mut light_table, &powers);
+        if let Some(light) = light_table.get(header.environment_light as usize) {
+            header.environment_density = (f64::from(light.pmf) / environment_weight) as f32;
+        }
+        header.light_count = light_table.len() as u32;
+
+        check_size(device, "triangles", size_of_val(geometry.rows.as_slice()))?;
+        check_size(device, "tree nodes", size_of_val(geometry.nodes.as_slice()))?;
+        check_size(device, "images", size_of_val(words.as_slice()))?;
+        check_size(device, "normals and texture coordinates", size_of_val(geometry.attributes.as_slice()))?;
+        let empty = storage(device, "placeholder", &[0_u32; 4], 16);
+        let mut this = Self {
+            id: {
+                static NEXT: AtomicU64 = AtomicU64::new(1);
+                NEXT.fetch_add(1, Ordering::Relaxed)
+            },
+            revision: 0,
+            traits,
+            stack: 0,
+            pose: pose.clone(),
+            instances,
+            emitters: emitters.into_values().collect(),
+            light_table,
+            first_punctual,
+            punctual,
+            materials: scene.materials.clone(),
+            images,
+            header,
+            buffers: Buffers {
+                scene: empty.clone(),
+                nodes: storage(device, "tree nodes", &geometry.nodes, 64),
+                triangles: storage(device, "visibility lookup table", &geometry.rows, 48),
+                attributes: storage(device, "normals and texture coordinates", &geometry.attributes, 4),
+                texels: storage(device, "texels", &words, 4),
+                instances: empty.clone(),
+                materials: empty.clone(),
+                lights: empty.clone(),
+                analytic_lights: empty.clone(),
+                analytic_lights_previous: empty,
+            },
+            triangles: geometry.rows.len(),
+        };
+        let top = this.upload_placements(device, &pose);
+        this.upload_materials(device);
+        this.upload_lights(device);
+        this.buffers.analytic_lights_previous = this.buffers.analytic_lights.clone();
+        this.stack = (geometry.depth + top + 2).next_multiple_of(4);
+        if this.stack > LARGEST_STACK {
+            let reason = format!("their tree has {} levels, {LARGEST_STACK} at most can be traversed", this.stack);
+            return Err(SceneError { file: "scene".into(), element: "triangles".into(), reason });
+        }
+        Ok(this)
+    }
+
+    /// Moves what moves and dims what dims. The pose before becomes the previous frame's: call this once per frame, even if
+    /// nothing moved, so that motion ends when movement does. Buffers are replaced, not overwritten, so frames that were
+    /// recorded but not yet submitted keep theirs.
+    ///
+    /// # Errors
+    /// One that names the element of the pose that does not belong to this scene or is not finite; nothing has changed then.
+    pub fn update(&mut self, device: &Device, pose: &Pose) -> Result<(), SceneError> {
+        let wrong = |element: String, reason: &str| {
+            Err(SceneError { file: "pose".into(), element, reason: reason.into() })
+        };
+        let lengths = |p: &Pose| [p.world.len(), p.emission.len(), p.intensity.len()];
+        if lengths(pose) != lengths(&self.pose) {
+            return wrong("lengths".into(), "differ from the scene's: make it with `Scene::pose` of the same scene");
+        }
+        if let Some(i) = pose.world.iter().position(|m| m.iter().flatten().any(|x| !x.is_finite())) {
+            return wrong(format!("world[{i}]"), "is not finite");
+        }
+        if pose.emission.iter().chain(&pose.intensity).any(|f| !(f.is_finite() && *f >= 0.0)) {
+            return wrong("emission or intensity".into(), "is negative or not finite");
+        }
+        let before = std::mem::replace(&mut self.pose, pose.clone());
+        let changed = before != *pose;
+        self.upload_placements(device, &before);
+        self.buffers.analytic_lights_previous = self.buffers.analytic_lights.clone();
+        if changed {
+            self.revision += 1;
+            self.upload_lights(device);
+            if before.emission != pose.emission {
+                self.upload_materials(device);
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of triangles in the lookup table; instances share theirs.
+    pub fn triangles(&self) -> usize {
+        self.triangles
+    }
+
+    /// What the scene has, and so what the passes must contain.
+    pub fn traits(&self) -> Traits {
+        self.traits
+    }
+
+    /// Bytes of GPU memory that the scene takes.
+    pub fn memory(&self) -> u64 {
+        let b = &self.buffers;
+        [&b.nodes, &b.triangles, &b.attributes, &b.texels, &b.instances, &b.materials, &b.lights]
+            .iter()
+            .map(|buffer| buffer.size())
+            .sum()
+    }
+
+    /// Differs between any two scenes of a process, and after any change of the pose.
+    pub(crate) fn version(&self) -> [u64; 2] {
+        [self.id, self.revision]
+    }
+
+    /// Slots that a traversal's stack needs.
+    pub(crate) fn stack(&self) -> u32 {
+        self.stack
+    }
+
+    /// The buffer behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
+    pub(crate) fn buffer(&self, binding: &str) -> Option<&Buffer> {
+        let b = &self.buffers;
+        Some(match binding {
+            "scene" => &b.scene,
+            "nodes" => &b.nodes,
+            "triangles" => &b.triangles,
+            "attributes" => &b.attributes,
+            "texels" => &b.texels,
+            "instances" => &b.instances,
+            "materials" => &b.materials,
+            "lights" => &b.lights,
+            "analytic_lights" => &b.analytic_lights,
+            "analytic_lights_previous" => &b.analytic_lights_previous,
+            _ => return None,
+        })
+    }
+
+    /// Uploads the top level and the instance records, with the placements of both poses; returns the top level's depth.
+    fn upload_placements(&mut self, device: &Device, before: &Pose) -> u32 {
+        let place = |pose: &Pose, i: &Instance| {
+            i.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
+        };
+        let mut words: Vec<[f32; 4]> = Vec::new();
+        let mut depth = 0;
+        if self.traits.instanced {
+            let boxes: Vec<_> =
+                self.instances.iter().map(|i| transform_box(place(&self.pose, i), i.bounds)).collect();
+            let top = bvh::over_instances(&boxes);
+            depth = top.depth;
+            words.extend_from_slice(bytemuck::cast_slice(&top.nodes));
+        }
+        self.header.instances = words.len() as u32;
+        for instance in &self.instances {
+            let now = place(&self.pose, instance);
+            let mirrored = u32::from(now.determinant() < 0.0);
+            let numbers =
+                [instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored];
+            words.extend(rows(now));
+            words.extend(rows(inverse(now)));
+            words.extend(rows(place(before, instance)));
+            words.push(numbers.map(f32::from_bits));
+        }
+        self.buffers.instances = storage(device, "instances", &words, 16);
+        self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
+        depth
+    }
+
+    fn upload_materials(&mut self, device: &Device) {
+        let texture = |t| texels::texture_use(t, &self.images);
+        let materials: Vec<GpuMaterial> = self
+            .materials
+            .iter()
+            .zip(&self.pose.emission)
+            .map(|(m, factor)| GpuMaterial {
+                base_color: m.base_color,
+                emissive: m.emissive.map(|e| e * factor),
+                flags: u32::from(m.double_sided) | u32::from(m.unlit) << 1,
+                metallic: m.metallic,
+                roughness: m.roughness,
+                specular: m.specular,
+                cutoff: match m.alpha {
+                    Alpha::Opaque => 0.0,
+                    Alpha::Mask(cutoff) => cutoff,
+                },
+                base_color_texture: texture(m.base_color_texture),
+                metallic_roughness_texture: texture(m.metallic_roughness_texture),
+                emissive_texture: texture(m.emissive_texture),
+            })
+            .collect();
+        self.buffers.materials = storage(device, "materials", &materials, size_of::<GpuMaterial>());
+    }
+
+    fn upload_lights(&mut self, device: &Device) {
+        let mut analytic: Vec<AnalyticLight> =
+            self.emitters.iter().map(|e| e.analytic(&self.materials, &self.pose)).collect();
+        for (punctual, entry) in self.punctual.iter().zip(&mut self.light_table[self.first_punctual..]) {
+            let world: &Matrix = &self.pose.world[punctual.node];
+            let placed = lights::punctual(&punctual.light, world, self.pose.intensity[punctual.index]);
+            *entry = GpuLight { alias: entry.alias, threshold: entry.threshold, pmf: entry.pmf, ..placed };
+            analytic.push(AnalyticLight::from(placed));
+        }
+        analytic.sort_by(|a, b| lights::luminance(b.intensity).total_cmp(&lights::luminance(a.intensity)));
+        analytic.truncate(ANALYTIC_LIGHTS);
+        let count = analytic.len() as u32;
+        analytic.resize(analytic.len().max(1), AnalyticLight::default());
+        analytic.iter_mut().for_each(|light| light.count = count);
+        self.buffers.lights = storage(device, "lights", &self.light_table, size_of::<GpuLight>());
+        self.buffers.analytic_lights = storage(device, "analytic lights", &analytic, size_of::<AnalyticLight>());
+    }
+}
+
+impl Emitter {
+    fn add(&mut self, corners: [Vec3; 3], normal: Vec3) {
+        let area = normal.length();
+        self.centre += area * (corners[0] + corners[1] + corners[2]) / 3.0;
+        self.normal += normal;
+        self.area += area;
+    }
+
+    /// A flat emitter is a cosine lobe of radiance times area; one that is closed shows a quarter of its area from
+    /// everywhere (Cauchy), like a point light.
+    fn analytic(&self, materials: &[Material], pose: &Pose) -> AnalyticLight {
+        let placement = self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
+        let scale = placement.determinant().abs().powf(2.0 / 3.0);
+        let factor = pose.emission[self.material] * scale;
+        let flat = self.normal.length() > 0.5 * self.area;
+        let shown = if flat { self.normal.length() } else { self.area / 4.0 };
+        AnalyticLight {
+            position: placement.transform_point3(self.centre / self.area).to_array(),
+            kind: if flat { lights::EMITTER } else { lights::POINT },
+            axis: placement.transform_vector3(self.normal).normalize_or(Vec3::NEG_Y).to_array(),
+            range: 1e9,
+            intensity: materials[self.material].emissive.map(|e| e * factor * shown),
+            spot_scale: 0.0,
+            spot_offset: 1.0,
+            ..Default::default()
+        }
+    }
+}
+
+fn check_size(device: &Device, element: &str, bytes: usize) -> Result<(), SceneError> {
+    let limits = device.limits();
+    let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    if bytes as u64 <= limit {
+        return Ok(());
+    }
+    let reason = format!(
+        "take {bytes} bytes, the device's max_storage_buffer_binding_size is {limit}: raise it, or use fewer triangles or \
+         smaller images"
+    );
+    Err(SceneError { file: "scene".into(), element: element.into(), reason })
+}
+
+fn buffer(device: &Device, label: &str, contents: &[u8], usage: BufferUsages) -> Buffer {
+    device.create_buffer_init(&BufferInitDescriptor { label: Some(&format!("asvgf {label}")), contents, usage })
+}
+
+/// A storage buffer, of at least the bytes that its binding needs.
+fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -> Buffer {
+    let bytes: &[u8] = bytemuck::cast_slice(contents);
+    if bytes.len() >= least {
+        buffer(device, label, bytes, BufferUsages::STORAGE)
+    } else {
+        buffer(device, label, &vec![0; least], BufferUsages::STORAGE)
+    }
+}
+
+/// The three rows of an affine matrix.
+fn rows(m: Mat4) -> [[f32; 4]; 3] {
+    [m.row(0), m.row(1), m.row(2)].map(|r: Vec4| r.to_array())
+}
+
+/// The inverse, in double precision; a placement that flattens has none and is never hit: its inverse is taken as 0.
+fn inverse(m: Mat4) -> Mat4 {
+    let m = m.as_dmat4();
+    if m.determinant() == 0.0 { Mat4::ZERO } else { m.inverse().as_mat4() }
+}
+
+/// A box around a box after a placement.
+fn transform_box(m: Mat4, [low, high]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
+    let (mut a, mut b) = (Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY));
+    for corner in 0..8 {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        let p = m.transform_point3(Vec3::new(pick(0), pick(1), pick(2)));
+        a = a.min(p);
+        b = b.max(p);
+    }
+    // Rounding in the transformation may not lose a hit on the box's face.
+    let margin = (a.abs().max(b.abs())) * 4e-7;
+    [(a - margin).to_array(), (b + margin).to_array()]
+}

@@ -1,0 +1,286 @@
+//! What can be set, with what a higher and a lower value cost.
+
+use crate::Error;
+
+/// Everything that can be set. All of it may change between two frames; what changes the compiled shaders says so.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// What the target shows. Changing it compiles.
+    pub mode: Mode,
+    /// How the noise is filtered.
+    pub filter: FilterSettings,
+    /// How paths are traced.
+    #[cfg(feature = "path-tracer")]
+    pub tracer: TracerSettings,
+}
+
+impl Default for Settings {
+    /// [`Settings::adaptive`].
+    fn default() -> Self {
+        Self::adaptive()
+    }
+}
+
+impl Settings {
+    /// The crate's own filter with an adaptive α: the default.
+    pub fn adaptive() -> Self {
+        Self {
+            mode: Mode::Denoise,
+            filter: FilterSettings::default(),
+            #[cfg(feature = "path-tracer")]
+            tracer: TracerSettings::default(),
+        }
+    }
+
+    /// The formulas of A-SVGF as published (Schied et al. 2017 and 2018), for comparison.
+    pub fn classic() -> Self {
+        Self { filter: FilterSettings::classic(), ..Self::adaptive() }
+    }
+
+    /// The same filter with a constant α: no temporal gradient, a history that fades as `(1 − α)ⁿ` whatever happens.
+    pub fn constant(self, alpha: f32) -> Self {
+        let max_history = if alpha > 0.0 { self.filter.max_history.max(1.0 / alpha) } else { self.filter.max_history };
+        let filter = FilterSettings { gradient: Gradient::Off, alpha, max_history, ..self.filter };
+        Self { filter, ..self }
+    }
+
+    /// Checks every setting's range.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] for the first that is outside.
+    pub fn check(&self) -> Result<(), Error> {
+        let f = &self.filter;
+        let within = |setting, value: f32, low: f32, high: f32, accepted| {
+            if value >= low && value <= high {
+                Ok(())
+            } else {
+                Err(Error::Setting { setting, value: value.into(), accepted })
+            }
+        };
+        within("filter.alpha", f.alpha, 0.0, 1.0, "0…1")?;
+        within("filter.max_history", f.max_history, 1.0, 32768.0, "1…32768 frames")?;
+        within("filter.history_power", f.history_power, 0.0, 64.0, "0…64")?;
+        within("filter.gradient_gamma", f.gradient_gamma, 0.0, 1.0, "0…1")?;
+        within("filter.gradient_iterations", f.gradient_iterations as f32, 0.0, 7.0, "0…7")?;
+        within("filter.iterations", f.iterations as f32, 0.0, 8.0, "0…8")?;
+        within("filter.sigma_luminance", f.sigma_luminance, 0.0, 1e6, "0…10⁶")?;
+        within("filter.sigma_depth", f.sigma_depth, 1e-6, 1e6, "10⁻⁶…10⁶")?;
+        within("filter.sigma_normal", f.sigma_normal, 0.0, 1e6, "0…10⁶")?;
+        within("filter.ridge", f.ridge, 1e-6, 1e6, "10⁻⁶…10⁶")?;
+        #[cfg(feature = "path-tracer")]
+        {
+            within("tracer.samples", self.tracer.samples as f32, 1.0, 65536.0, "1…65536 samples per pixel")?;
+            within("tracer.bounces", self.tracer.bounces as f32, 0.0, 1024.0, "0…1024 bounces")?;
+        }
+        Ok(())
+    }
+}
+
+/// What the target shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Mode {
+    /// The filtered image.
+    #[default]
+    Denoise,
+    /// The path tracer's samples as they are.
+    Noisy,
+    /// The mean of all frames since the last restart or change of scene or camera, in f32: converges to the truth.
+    Reference,
+}
+
+/// How the noise is filtered. The defaults are those of the study in docs/filter.md.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FilterSettings {
+    /// Where the temporal gradient comes from. Changing it compiles.
+    pub gradient: Gradient,
+    /// Least weight of a new frame, 0…1. Higher: noisier, but what the gradient misses is forgotten sooner. Lower: smoother,
+    /// and slower to forget. With [`Gradient::Off`] this is *the* α of the moving average.
+    pub alpha: f32,
+    /// Longest history in frames, 1…32768: the weight of a new frame is 1/n until n gets here. Higher: smoother still images.
+    pub max_history: f32,
+    /// k in n ← n·(1 − λ)ᵏ + 1, ≥ 0: how fast a history length falls with the gradient λ. Higher: less lag, more noise after
+    /// a change. 0 never shortens.
+    pub history_power: f32,
+    /// Rescale the history by the ratio that the gradient samples show before blending, and drop only what the ratio does
+    /// not explain: less lag and less noise where light moves or dims. Re-shading only. Changing it compiles.
+    pub history_ratio: bool,
+    /// γ in λ = A\[Δ^(γ−1)·|δ|\] / A\[Δ^γ\], 0…1. Higher: a dim change beside a bright steady light is overlooked. Lower: a
+    /// change that few samples see counts as much as one that all see.
+    pub gradient_gamma: f32,
+    /// Iterations that spread the gradient over the strata, 0…7; each doubles the reach (3, 9, 21 pixels …). More: steadier,
+    /// and more history is dropped around a change.
+    pub gradient_iterations: u32,
+    /// How λ enters the weight of the new frame. Changing it compiles.
+    pub blend: Blend,
+    /// Feed the colour of the first spatial iteration back into history, as SVGF does: smoother at first, blurred for
+    /// good. Changing it compiles.
+    pub feedback: bool,
+    /// Which variance steers the luminance stop. Changing it compiles.
+    pub variance: Variance,
+    /// Formulas of the edge stops. Changing it compiles.
+    pub stops: Stops,
+    /// Taps of a spatial iteration. Changing it compiles.
+    pub kernel: Kernel,
+    /// Fit a plane to the taps instead of averaging them: sharper borders and penumbrae for 5 % more time. Changing it
+    /// compiles.
+    pub local_linear_fit: bool,
+    /// Ridge on the slopes of that plane, > 0. Higher: closer to the mean. Lower: follows noise.
+    pub ridge: f32,
+    /// Compare smoothed luminances in the first iteration while histories are short: half the energy lost to the preference
+    /// for dark neighbours. Changing it compiles.
+    pub luminance_prefilter: bool,
+    /// Spatial iterations, 0…8, with steps of 1, 2, 4 … pixels. More: smoother, costlier, blurrier.
+    pub iterations: u32,
+    /// Luminance stop in standard deviations of the noise. Higher: smoother, edges of shadows blur. 0 filters nothing but
+    /// what is equal.
+    pub sigma_luminance: f32,
+    /// Depth stop. Default stops: tolerated distance from the tangent plane, in parts of the depth. Classic: in depth
+    /// gradients. Higher: leaks across edges. Lower: noise stays on curved surfaces.
+    pub sigma_depth: f32,
+    /// Normal stop: the exponent. Higher: sharper normal edges, noise stays on curved surfaces.
+    pub sigma_normal: f32,
+}
+
+impl Default for FilterSettings {
+    fn default() -> Self {
+        Self {
+            gradient: Gradient::Reshade,
+            alpha: 0.02,
+            max_history: 64.0,
+            history_power: 3.5,
+            history_ratio: true,
+            gradient_gamma: 0.5,
+            gradient_iterations: 3,
+            blend: Blend::HistoryLength,
+            feedback: false,
+            variance: Variance::OfMean,
+            stops: Stops::NoiseSubtracted,
+            kernel: Kernel::Diamond,
+            local_linear_fit: true,
+            ridge: 0.25,
+            luminance_prefilter: true,
+            iterations: 4,
+            sigma_luminance: 4.0,
+            sigma_depth: 0.01,
+            sigma_normal: 8.0,
+        }
+    }
+}
+
+impl FilterSettings {
+    /// The formulas of A-SVGF as published, with the customary values.
+    pub fn classic() -> Self {
+        Self {
+            gradient: Gradient::Reshade,
+            alpha: 0.2,
+            max_history: 64.0,
+            history_power: 10.0,
+            history_ratio: false,
+            gradient_gamma: 0.0,
+            gradient_iterations: 3,
+            blend: Blend::Lambda,
+            feedback: true,
+            variance: Variance::OfSample,
+            stops: Stops::Classic,
+            kernel: Kernel::Full,
+            local_linear_fit: false,
+            ridge: 0.25,
+            luminance_prefilter: false,
+            iterations: 5,
+            sigma_luminance: 4.0,
+            sigma_depth: 1.0,
+            sigma_normal: 128.0,
+        }
+    }
+}
+
+/// Where the temporal gradient, and with it the adaptive α, comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Gradient {
+    /// One pixel of each 3×3 repeats a path of the last frame, random numbers included, in this frame's scene (Schied et al.
+    /// 2018): sees every change of light, shadow and geometry. Costs no extra ray.
+    #[default]
+    Reshade,
+    /// Deferred Blinn–Phong shading of this and the last frame's lights, without shadows: no ray, no noise, blind to what
+    /// blocks the light.
+    BlinnPhong,
+    /// None: α is constant.
+    Off,
+}
+
+/// How λ enters the weight α' of the new frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Blend {
+    /// α' = 1/n with the shortened history length n.
+    #[default]
+    HistoryLength,
+    /// α' = (1 − λ)·α + λ as published, and at least 1/n.
+    Lambda,
+}
+
+/// Which variance steers the luminance stop.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Variance {
+    /// That of the accumulated mean: (m₂ − m₁²)/n.
+    #[default]
+    OfMean,
+    /// That of one sample: m₂ − m₁².
+    OfSample,
+}
+
+/// Formulas of the edge stops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Stops {
+    /// Distance from the tangent plane, exp(−σ·(1 − n·n')), and squared luminance difference less the noise of both ends.
+    #[default]
+    NoiseSubtracted,
+    /// exp(−|Δz|/(σ·|∇z·Δp|)), max(0, n·n')^σ, exp(−|Δl|/(σ·√Var)).
+    Classic,
+}
+
+/// Taps of a spatial iteration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Kernel {
+    /// The 13 taps of the B₃ spline's 5×5 with |x| + |y| ≤ 2: as good, at half the price.
+    #[default]
+    Diamond,
+    /// All 25.
+    Full,
+}
+
+/// How paths are traced.
+#[cfg(feature = "path-tracer")]
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TracerSettings {
+    /// Paths per pixel and frame, 1…65536. Higher: less noise, proportionally slower.
+    pub samples: u32,
+    /// Reflections after the first surface; 0 is direct light only. Higher: brighter corners, slower.
+    pub bounces: u32,
+    /// Bounce from which Russian roulette may end a path. Higher: less noise, slower.
+    pub roulette: u32,
+    /// Which estimator. Changing it compiles.
+    pub sampling: Sampling,
+    /// Another number gives other noise.
+    pub seed: u32,
+}
+
+#[cfg(feature = "path-tracer")]
+impl Default for TracerSettings {
+    fn default() -> Self {
+        Self { samples: 1, bounces: 3, roulette: 3, sampling: Sampling::Both, seed: 0 }
+    }
+}
+
+/// Which estimator of direct light. All have the same mean (except that scattered rays alone never find a light without
+/// area); they differ in noise.
+#[cfg(feature = "path-tracer")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Sampling {
+    /// Light samples and scattered rays, weighted by the power heuristic (Veach 1997).
+    #[default]
+    Both,
+    /// Light samples alone.
+    Lights,
+    /// Scattered rays alone.
+    Scattered,
+}

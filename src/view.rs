@@ -1,0 +1,98 @@
+//! The intermediate images that can be looked at.
+
+/// An intermediate image of the last frame, for [`Denoiser::show`](crate::Denoiser::show).
+///
+/// In an `rgba32float` or `rgba16float` target each shows its numbers, as listed, with alpha 1; in an `rgba8unorm` one a
+/// picture (sRGB-encoded).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum View {
+    /// The filtered image: linear radiance. Picture: tone-mapped.
+    Denoised = 0,
+    /// The samples as traced: linear radiance. Picture: tone-mapped.
+    Noisy = 1,
+    /// What radiance was divided by before filtering, 10⁻³…1; 0 where nothing was hit.
+    Albedo = 2,
+    /// World-space normal, −1…1; 0 where nothing was hit.
+    Normal = 3,
+    /// Linear depth; 0 where nothing was hit. Picture: brighter is farther, grey at [`ViewOptions::range`].
+    Depth = 4,
+    /// Number of the triangle: low 16 bits in red, high 16 in green; blue is 0 where nothing was hit. Picture: one colour each.
+    TriangleId = 5,
+    /// Previous − current position in pixels in red and green, the point's previous depth in blue. Picture: grey is none.
+    Motion = 6,
+    /// λ of each stratum before interpolation, 0…1.
+    Gradient = 7,
+    /// λ of each pixel, 0…1 in steps of 1/255, rounded up.
+    Lambda = 8,
+    /// Weight of the new frame, 0…1.
+    Alpha = 9,
+    /// History length in frames. Picture: white at [`ViewOptions::range`].
+    HistoryLength = 10,
+    /// Variance of a sample's demodulated luminance. Picture: logarithmic in its root.
+    Variance = 11,
+    /// 1 where the filtered image is not finite.
+    NonFinite = 12,
+}
+
+impl View {
+    /// Every view, in order.
+    pub const ALL: [Self; 13] = [
+        Self::Denoised,
+        Self::Noisy,
+        Self::Albedo,
+        Self::Normal,
+        Self::Depth,
+        Self::TriangleId,
+        Self::Motion,
+        Self::Gradient,
+        Self::Lambda,
+        Self::Alpha,
+        Self::HistoryLength,
+        Self::Variance,
+        Self::NonFinite,
+    ];
+
+    /// The name in lower case with hyphens: `history-length`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Denoised => "denoised",
+            Self::Noisy => "noisy",
+            Self::Albedo => "albedo",
+            Self::Normal => "normal",
+            Self::Depth => "depth",
+            Self::TriangleId => "triangle-id",
+            Self::Motion => "motion",
+            Self::Gradient => "gradient",
+            Self::Lambda => "lambda",
+            Self::Alpha => "alpha",
+            Self::HistoryLength => "history-length",
+            Self::Variance => "variance",
+            Self::NonFinite => "non-finite",
+        }
+    }
+
+    /// What [`ViewOptions::range`] is customarily set to for a picture of this view.
+    pub fn default_range(self) -> f32 {
+        match self {
+            Self::Motion => 8.0,
+            Self::HistoryLength => 64.0,
+            _ => 4.0,
+        }
+    }
+}
+
+/// How a [`View`] becomes a picture. Ignored where the target holds numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewOptions {
+    /// Factor on radiance before tone mapping, and on the variance's root.
+    pub exposure: f32,
+    /// Depth, pixels of motion or frames of history that are shown grey, full or white.
+    pub range: f32,
+}
+
+impl Default for ViewOptions {
+    fn default() -> Self {
+        Self { exposure: 1.0, range: 4.0 }
+    }
+}

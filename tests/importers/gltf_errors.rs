@@ -1,0 +1,243 @@
+//! glTF files that cannot be drawn: each must give an error that names file, element and reason.
+
+use asvgf::scene::load;
+use serde_json::{Value, json};
+
+use crate::common::*;
+
+/// A file in which a change breaks one thing.
+fn broken(change: impl FnOnce(&mut Gltf), element: &str, reason: &str) {
+    let mut gltf = Gltf::triangle();
+    let indices = gltf.indices(&[0, 1, 2]);
+    gltf.json["meshes"][0]["primitives"][0]["indices"] = json!(indices);
+    assert!(gltf.load().is_ok());
+    change(&mut gltf);
+    assert_error(gltf.load(), "test.gltf", element, reason);
+}
+
+/// Changes a value anywhere in the file.
+fn set(pointer: &str, value: Value) -> impl FnOnce(&mut Gltf) {
+    let (parent, name) = pointer.rsplit_once('/').map(|(parent, name)| (parent.to_owned(), name.to_owned())).unwrap();
+    move |gltf| {
+        let parent = gltf.json.pointer_mut(&parent).unwrap();
+        match parent {
+            Value::Array(list) => list[name.parse::<usize>().unwrap()] = value,
+            parent => parent[name] = value,
+        }
+    }
+}
+
+#[test]
+fn indices_out_of_range() {
+    broken(set("/scene", json!(3)), "scene", "index 3 is out of range: the file has 1");
+    broken(set("/scenes/0/nodes/0", json!(9)), "scene.nodes[0]", "index 9");
+    broken(set("/nodes/0/children", json!([5])), "nodes[0].children[0]", "index 5");
+    broken(set("/nodes/0/mesh", json!(1)), "nodes[0].mesh", "index 1 is out of range");
+    broken(set("/nodes/0/camera", json!(0)), "nodes[0].camera", "index 0");
+    broken(set("/nodes/0/extensions", json!({"KHR_lights_punctual": {"light": 2}})), "nodes[0].light", "index 2");
+    broken(set("/meshes/0/primitives/0/material", json!(7)), "meshes[0].primitives[0].material", "index 7");
+    broken(set("/meshes/0/primitives/0/indices", json!(7)), "meshes[0].primitives[0].indices", "index 7");
+    broken(
+        set("/meshes/0/primitives/0/attributes/POSITION", json!(7)),
+        "meshes[0].primitives[0].attributes.POSITION",
+        "index 7",
+    );
+    broken(set("/accessors/0/bufferView", json!(7)), "primitives[0].attributes.POSITION", "index 7");
+    broken(set("/bufferViews/0/buffer", json!(7)), "bufferViews[0]", "buffer 7 is out of range");
+    broken(set("/materials", json!([{"emissiveTexture": {"index": 4}}])), "materials[0].emissiveTexture", "index 4");
+    let textured = |texture: Value| {
+        move |gltf: &mut Gltf| {
+            gltf.json["materials"] = json!([{"emissiveTexture": {"index": 0}}]);
+            gltf.json["textures"] = json!([texture]);
+        }
+    };
+    broken(textured(json!({"source": 3})), "textures[0].source", "index 3");
+}
+
+#[test]
+fn accessors_that_do_not_fit() {
+    broken(
+        set("/accessors/0/count", json!(4_000_000)),
+        "meshes[0].primitives[0].attributes.POSITION",
+        "accessor 0: 4000000 elements of 12 bytes from byte 0 on do not fit the 36 bytes of buffer view 0",
+    );
+    broken(set("/accessors/0/count", json!(u64::MAX)), "POSITION", "do not fit");
+    broken(set("/accessors/0/byteOffset", json!(u64::MAX - 4)), "POSITION", "do not fit");
+    broken(set("/accessors/0/byteOffset", json!(4)), "POSITION", "from byte 4 on");
+    broken(set("/bufferViews/0/byteLength", json!(1000)), "bufferViews[0]", "1000 bytes from 0 on");
+    broken(set("/bufferViews/0/byteOffset", json!(u64::MAX)), "bufferViews[0]", "not within its buffer");
+    broken(set("/bufferViews/0/byteStride", json!(8)), "POSITION", "12 bytes do not fit a stride of 8");
+    broken(set("/bufferViews/0/byteStride", json!(0)), "POSITION", "stride of 0");
+    broken(set("/bufferViews/0/byteStride", json!(16)), "POSITION", "do not fit");
+    broken(set("/accessors/1/count", json!(4)), "primitives[0].indices", "do not fit");
+}
+
+#[test]
+fn accessors_without_data_cannot_ask_for_memory() {
+    let zeros = |count: u64, sparse: Value| {
+        move |gltf: &mut Gltf| {
+            let accessor = gltf.json["accessors"][0].as_object_mut().unwrap();
+            accessor.remove("bufferView");
+            accessor.insert("count".into(), json!(count));
+            accessor.insert("sparse".into(), sparse);
+        }
+    };
+    broken(zeros(4_000_000_000, Value::Null), "POSITION", "4000000000 elements without a buffer view");
+    let values = json!({"bufferView": 0});
+    let indices = json!({"bufferView": 1, "componentType": U16});
+    let sparse = |count: u64| json!({"count": count, "indices": indices, "values": values});
+    broken(zeros(u64::MAX, sparse(1)), "POSITION", "without a buffer view");
+    broken(zeros(1_000_000, sparse(900_000)), "POSITION", "do not fit");
+    broken(zeros(2, sparse(3)), "POSITION", "sparse: 3 replacements for 2 elements");
+    broken(zeros(2, sparse(2)), "primitives[0].indices", "index 2 is 2");
+}
+
+#[test]
+fn sparse_accessors_that_are_wrong() {
+    let sparse = |indices: [u16; 3], component: u32| {
+        move |gltf: &mut Gltf| {
+            let view = gltf.view(&le(indices.map(u16::to_le_bytes).into_iter()));
+            gltf.json["accessors"][0]["sparse"] = json!({
+                "count": 3, "indices": {"bufferView": view, "componentType": component}, "values": {"bufferView": 0}
+            });
+        }
+    };
+    broken(sparse([0, 2, 1], U16), "POSITION", "do not increase");
+    broken(sparse([0, 1, 9], U16), "POSITION", "index 9 is out of range of 3");
+    broken(sparse([0, 1, 2], F32), "POSITION", "not an unsigned integer");
+}
+
+#[test]
+fn types_that_do_not_belong() {
+    broken(set("/accessors/1/componentType", json!(F32)), "primitives[0].indices", "component type is FLOAT");
+    broken(
+        set("/accessors/1/componentType", json!(I16)),
+        "primitives[0].indices",
+        "is SHORT, where one of UNSIGNED_BYTE",
+    );
+    broken(set("/accessors/1/type", json!("VEC2")), "primitives[0].indices", "type is not SCALAR");
+    broken(set("/accessors/0/type", json!("VEC4")), "POSITION", "type is not VEC3");
+    broken(set("/accessors/0/type", json!("VEC9")), "POSITION", "type is not VEC3");
+    broken(set("/accessors/0/componentType", json!(U32)), "POSITION", "UNSIGNED_INT");
+    broken(set("/accessors/0/componentType", json!(1)), "POSITION", "does not exist");
+    broken(set("/meshes/0/primitives/0/mode", json!(7)), "primitives[0].mode", "0…6");
+}
+
+#[test]
+fn vertices_that_are_wrong() {
+    broken(set("/meshes/0/primitives/0/attributes", json!({})), "primitives[0].attributes", "no POSITION");
+    broken(|gltf| gltf.bytes[40] = 200, "meshes[0].primitives[0].indices", "index 2 is 200, but there are only 3");
+    for number in [f32::NAN, f32::INFINITY] {
+        broken(
+            |gltf| gltf.bytes[16..20].copy_from_slice(&number.to_le_bytes()),
+            "meshes[0].primitives[0].attributes.POSITION",
+            "vertex 1 is not finite",
+        );
+    }
+    broken(
+        |gltf| {
+            let normal = gltf.floats("VEC3", &[0.0; 6]);
+            gltf.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = json!(normal);
+        },
+        "attributes.NORMAL",
+        "2 elements, but POSITION has 3",
+    );
+}
+
+#[test]
+fn nodes_materials_and_lights_that_are_wrong() {
+    broken(set("/nodes/0/rotation", json!([0, 0, 0, 0])), "nodes[0].rotation", "length is 0");
+    broken(set("/nodes/0/scale", json!([1e300, 1, 1])), "nodes[0].scale", "not finite");
+    broken(
+        set("/nodes/0/matrix", json!([1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1])),
+        "nodes[0].matrix",
+        "last row",
+    );
+    broken(set("/materials", json!([{"alphaMode": "MAYBE"}])), "materials[0].alphaMode", "OPAQUE");
+    broken(set("/cameras", json!([{"type": "perspective"}])), "cameras[0]", "no perspective");
+    broken(set("/cameras", json!([{"type": "fisheye"}])), "cameras[0].type", "neither");
+    let light = json!({"KHR_lights_punctual": {"lights": [{"type": "laser"}]}});
+    broken(set("/extensions", light), "lights[0].type", "directional");
+}
+
+#[test]
+fn animations_that_are_wrong() {
+    let animated = |times: [f32; 2], values: usize, node: usize, interpolation: &'static str, path: &'static str| {
+        move |gltf: &mut Gltf| {
+            let input = gltf.floats("SCALAR", &times);
+            let output = gltf.floats("VEC3", &vec![1.0; values * 3]);
+            gltf.json["animations"] = json!([{
+                "samplers": [{"input": input, "output": output, "interpolation": interpolation}],
+                "channels": [{"sampler": 0, "target": {"node": node, "path": path}}],
+            }]);
+        }
+    };
+    let sampler = "animations[0].samplers[0]";
+    broken(animated([1.0, 0.0], 2, 0, "LINEAR", "scale"), &format!("{sampler}.input"), "increasing");
+    broken(animated([0.0, f32::NAN], 2, 0, "LINEAR", "scale"), &format!("{sampler}.input"), "finite");
+    broken(animated([0.0, 1.0], 3, 0, "LINEAR", "scale"), &format!("{sampler}.output"), "3 values for 2 keys");
+    broken(animated([0.0, 1.0], 2, 0, "CUBICSPLINE", "scale"), &format!("{sampler}.output"), "each has 3");
+    broken(animated([0.0, 1.0], 2, 0, "LINEAR", "rotation"), &format!("{sampler}.output"), "not VEC4");
+    broken(animated([0.0, 1.0], 2, 4, "LINEAR", "scale"), "animations[0].channels[0].target.node", "index 4");
+    broken(animated([0.0, 1.0], 2, 0, "JUMP", "scale"), &format!("{sampler}.interpolation"), "LINEAR");
+    broken(animated([0.0, 1.0], 2, 0, "LINEAR", "colour"), "animations[0].channels[0].target.path", "translation");
+}
+
+#[test]
+fn files_that_are_no_gltf() {
+    let folder = Folder::new();
+    let load_text = |text: &str| load(folder.write("bad.gltf", text));
+    assert_error(load_text(""), "bad.gltf", "JSON", "empty");
+    assert_error(load_text(" \n"), "bad.gltf", "JSON", "empty");
+    assert_error(load_text("{"), "bad.gltf", "JSON", "line 1");
+    assert_error(load_text("[]"), "bad.gltf", "JSON", "");
+    assert_error(load_text("{}"), "bad.gltf", "JSON", "asset");
+    assert_error(load_text(r#"{"asset": {"version": "1.0"}}"#), "bad.gltf", "asset.version", "1.0");
+    assert_error(load_text(r#"{"asset": {"version": "2.1", "minVersion": "2.1"}}"#), "bad.gltf", "asset", "2.0");
+    assert_error(load_text(&"[".repeat(100_000)), "bad.gltf", "JSON", "");
+    assert_error(load(folder.0.join("absent.gltf")), "absent.gltf", "file", "cannot be read");
+    assert_error(load(folder.0.join("no_such_folder/absent.gltf")), "absent.gltf", "file", "cannot be read");
+    std::fs::create_dir(folder.0.join("folder.gltf")).unwrap();
+    assert_error(load(folder.0.join("folder.gltf")), "folder.gltf", "file", "not a regular file");
+}
+
+#[test]
+fn extensions_that_are_required_and_unknown() {
+    broken(
+        |gltf| {
+            gltf.json["extensionsUsed"] = json!(["KHR_draco_mesh_compression"]);
+            gltf.json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]);
+        },
+        "extensionsRequired[0]",
+        "KHR_draco_mesh_compression is not supported",
+    );
+}
+
+#[test]
+fn buffers_that_are_wrong() {
+    let buffers = |buffer: Value| set("/buffers", json!([buffer]));
+    broken(buffers(json!({"byteLength": 4, "uri": "absent.bin"})), "buffers[0]", "\"absent.bin\" cannot be read");
+    broken(buffers(json!({"byteLength": 4})), "buffers[0]", "neither a uri nor");
+    broken(buffers(json!({"byteLength": 9, "uri": "data:;base64,AAAA"})), "buffers[0]", "byteLength is 9");
+    broken(buffers(json!({"byteLength": 1, "uri": "data:;base64,?"})), "buffers[0]", "not base64");
+    broken(buffers(json!({"byteLength": 1, "uri": "data:text/plain,abc"})), "buffers[0]", "not of the form");
+    broken(buffers(json!({"byteLength": 1, "uri": "100%"})), "buffers[0]", "well-formed");
+}
+
+#[test]
+fn glb_files_that_are_cut_short() {
+    let folder = Folder::new();
+    let whole = Gltf::triangle().glb();
+    for length in 0..whole.len() {
+        let result = load(folder.write("cut.glb", &whole[..length]));
+        assert!(result.is_err(), "{length} of {} bytes were accepted", whole.len());
+    }
+    let mut version = whole.clone();
+    version[4] = 1;
+    assert_error(load(folder.write("v1.glb", version)), "v1.glb", "GLB header", "version 1");
+    let other = glb(&[(b"BIN\0", b"1234")]);
+    assert_error(load(folder.write("bin.glb", other)), "bin.glb", "GLB chunk 0", "not JSON");
+    let mut long = whole;
+    long[12..16].copy_from_slice(&u32::MAX.to_le_bytes());
+    assert_error(load(folder.write("long.glb", long)), "long.glb", "GLB chunk 0", "past the end");
+}

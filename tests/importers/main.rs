@@ -1,0 +1,15 @@
+//! Importers, image files and the checks of scenes, on small files that the tests write themselves.
+#![cfg(all(feature = "gltf", feature = "obj"))]
+
+mod common;
+
+mod animation;
+mod environment;
+mod gltf_errors;
+mod gltf_geometry;
+mod gltf_materials;
+mod gltf_nodes;
+mod image_io;
+mod obj;
+mod paths;
+mod scene;
