@@ -15,7 +15,7 @@ fn main() {
     let scene = scene::builtin::scene(name, anim).unwrap();
     let mut gs = scene::GpuScene::new(&g.device, &scene).unwrap();
     let settings = match mode { "classic" => Settings::classic(), "constant" => Settings::adaptive().constant(0.2), "noisy" => Settings{mode: Mode::Noisy, ..Default::default()}, "bp" => {let mut s = Settings::default(); s.filter.gradient = Gradient::BlinnPhong; s}, "reference" => Settings{mode: Mode::Reference, ..Default::default()}, _ => Settings::adaptive() };
-    let mut d = Denoiser::new(&g.device, &DenoiserDescriptor { size, settings, timing: true }).unwrap();
+    let mut d = Denoiser::new(&g.device, &g.queue, &DenoiserDescriptor { size, settings, timing: true }).unwrap();
     let target = g.target(size, TextureFormat::Rgba32Float);
     let pic = g.target(size, TextureFormat::Rgba8Unorm);
     let mut times: std::collections::BTreeMap<&str, Vec<f64>> = Default::default();
@@ -26,12 +26,16 @@ fn main() {
         let camera = Camera { eye: v.eye, target: v.target, up: v.up, fov_y: v.fov_y, jitter: [0.0; 2] };
         let mut e = g.device.create_command_encoder(&Default::default());
         let t = std::time::Instant::now();
-        d.render(&g.device, &g.queue, &mut e, &gs, &camera, f, &target).unwrap();
+        let mut ft: std::collections::BTreeMap<&str, f64> = Default::default();
+        let mut t1 = std::time::Instant::now();
+        d.render_stepwise(&g.device, &mut e, &Frame { scene: &gs, camera, index: f, target: &target }, |p, e| {
+            let full = std::mem::replace(e, g.device.create_command_encoder(&Default::default()));
+            g.queue.submit([full.finish()]); g.wait();
+            *ft.entry(p.name()).or_default() += t1.elapsed().as_secs_f64() * 1e3; t1 = std::time::Instant::now();
+        }).unwrap();
         g.queue.submit([e.finish()]);
         g.wait();
         let wall = t.elapsed();
-        let mut ft: std::collections::BTreeMap<&str, f64> = Default::default();
-        if let Some(t) = d.take_times() { for (n, ms) in t.passes { *ft.entry(n).or_default() += ms; } }
         let c = g.read_colors(&target);
         let mean: f64 = c.iter().map(|c| c[1] as f64).sum::<f64>() / c.len() as f64;
         eprintln!("frame {f} mean {mean:.5} wall {:.1} ms", wall.as_secs_f64()*1e3);

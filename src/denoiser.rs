@@ -32,6 +32,20 @@ pub struct DenoiserDescriptor {
     pub timing: bool,
 }
 
+/// One frame of a path-traced scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    /// What to trace, moved to this frame's pose by [`GpuScene::update`].
+    pub scene: &'a GpuScene,
+    /// From where.
+    pub camera: Camera,
+    /// Number of the frame. With the pixel it decides all random numbers. It should grow by one per frame: paths can only be
+    /// repeated from the frame before, so any other step starts a new history.
+    pub index: u32,
+    /// Where linear radiance goes: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
+    pub target: &'a TextureView,
+}
+
 /// What a [`Denoiser`] asks of the device.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -90,7 +104,7 @@ impl Denoiser {
     ///
     /// # Errors
     /// What the device lacks, or which setting is out of range.
-    pub fn new(device: &Device, descriptor: &DenoiserDescriptor) -> Result<Self, Error> {
+    pub fn new(device: &Device, queue: &Queue, descriptor: &DenoiserDescriptor) -> Result<Self, Error> {
         descriptor.settings.check()?;
         let required = Self::requirements(descriptor);
         let missing = required.features - device.features();
@@ -121,7 +135,7 @@ impl Denoiser {
                 contents: &strides,
                 usage: BufferUsages::UNIFORM,
             }),
-            timing: descriptor.timing.then(Timing::default),
+            timing: descriptor.timing.then(|| Timing::new(queue)),
             last: None,
             parity: 0,
             history: false,
@@ -187,27 +201,32 @@ impl Denoiser {
         self.timing.as_ref()?.take()
     }
 
-    /// Records one frame: traces the scene from the camera, filters, and writes linear radiance into `target`, an
-    /// `rgba16float` or `rgba32float` view of the denoiser's size with storage usage.
-    ///
-    /// `index` numbers the frames and, with the pixel, decides all random numbers. It should grow by one per frame; the history
-    /// is kept for any index, but repeated paths are only right for successive ones, so the gradient pauses otherwise.
+    /// Records one frame: traces the scene, filters, and writes linear radiance into the target.
     ///
     /// # Errors
     /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
-    #[allow(clippy::too_many_arguments, reason = "each is a different thing that only the host has")]
-    pub fn render(
+    pub fn render(&mut self, device: &Device, encoder: &mut CommandEncoder, frame: &Frame<'_>) -> Result<(), Error> {
+        encoder.push_debug_group("asvgf frame");
+        let result = self.render_stepwise(device, encoder, frame, |_, _| {});
+        encoder.pop_debug_group();
+        result
+    }
+
+    /// As [`Denoiser::render`], and calls the host after each pass has been recorded: it may put another encoder in the place
+    /// of this one and submit what was recorded so far. That is how to time passes on an adapter without (honest) timestamps.
+    ///
+    /// # Errors
+    /// As [`Denoiser::render`].
+    pub fn render_stepwise(
         &mut self,
         device: &Device,
-        queue: &Queue,
         encoder: &mut CommandEncoder,
-        scene: &GpuScene,
-        camera: &Camera,
-        index: u32,
-        target: &TextureView,
+        frame: &Frame<'_>,
+        mut after: impl FnMut(Pass, &mut CommandEncoder),
     ) -> Result<(), Error> {
+        let &Frame { scene, index, target, .. } = frame;
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
-        let camera = camera.uniform(self.size)?;
+        let camera = frame.camera.uniform(self.size)?;
         let plan = Plan::path_traced(&scene.traits(), &self.settings, format);
         self.compile(device, &plan.steps, scene.stack())?;
         let lost = self.textures.fit(device, self.size, &plan);
@@ -218,30 +237,28 @@ impl Denoiser {
             // A mean over frames is only one of frames that are alike.
             continued &= last.is_some_and(|l| l.scene == version && l.camera == camera);
         }
-        let successive = last.is_some_and(|l| l.index.wrapping_add(1) == index);
-        if plan.features.has(Feature::Reshade) && !successive {
-            continued = false;
+        if plan.features.has(Feature::Reshade) {
+            // The scene knows the placements of the last frame only, and the paths to repeat are that frame's.
+            continued &= last.is_some_and(|l| l.index.wrapping_add(1) == index);
         }
         let previous = last.filter(|_| continued).map_or(camera, |l| l.camera);
         let moment = Moment { camera, previous, index, continued };
-        let uniform = FrameUniform::new(self.size, &moment, &self.settings);
         let uniform = device.create_buffer_init(&BufferInitDescriptor {
             label: Some("asvgf frame"),
-            contents: bytemuck::bytes_of(&uniform),
+            contents: bytemuck::bytes_of(&FrameUniform::new(self.size, &moment, &self.settings)),
             usage: BufferUsages::UNIFORM,
         });
         self.parity ^= 1;
-        encoder.push_debug_group("asvgf frame");
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         for step in &plan.steps {
             let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
             let resources = Resources { scene: Some(scene), uniform: &uniform, target, show: None };
             self.dispatch(device, encoder, step, &resources, timestamps)?;
+            after(step.pass, encoder);
         }
         if let (Some(timing), Some(queries)) = (&self.timing, queries) {
-            timing.end(device, queue, encoder, queries);
+            timing.end(device, encoder, queries);
         }
-        encoder.pop_debug_group();
         self.history = true;
         self.last = Some(LastFrame { plan, uniform, camera, scene: version, index });
         Ok(())

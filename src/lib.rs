@@ -19,7 +19,7 @@ mod settings;
 mod view;
 
 pub use camera::Camera;
-pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements};
+pub use denoiser::{Denoiser, DenoiserDescriptor, Frame, Requirements};
 pub use error::Error;
 pub use gpu::timing::FrameTimes;
 pub use passes::Pass;

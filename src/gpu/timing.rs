@@ -10,7 +10,7 @@ use wgpu::{
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FrameTimes {
-    /// Number of the frame, as given to [`Denoiser::render`](crate::Denoiser::render).
+    /// [`Frame::index`](crate::Frame::index).
     pub frame: u32,
     /// Name of each pass and its milliseconds, in order; iterations one by one.
     pub passes: Vec<(&'static str, f64)>,
@@ -26,8 +26,9 @@ impl FrameTimes {
 /// Frames whose times wait to be taken; older ones are dropped, so that a host that never asks loses no memory.
 const KEPT: usize = 256;
 
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Timing {
+    milliseconds_per_tick: f64,
     done: Arc<Mutex<Vec<FrameTimes>>>,
 }
 
@@ -39,6 +40,11 @@ pub(crate) struct FrameQueries {
 }
 
 impl Timing {
+    pub fn new(queue: &Queue) -> Self {
+        let milliseconds_per_tick = f64::from(queue.get_timestamp_period()) * 1e-6;
+        Self { milliseconds_per_tick, done: Arc::default() }
+    }
+
     /// Queries for a frame of `passes` passes.
     pub fn begin(&self, device: &Device, frame: u32, passes: usize) -> FrameQueries {
         let set = device.create_query_set(&QuerySetDescriptor {
@@ -50,7 +56,7 @@ impl Timing {
     }
 
     /// Resolves a frame's queries and maps them once the host has submitted.
-    pub fn end(&self, device: &Device, queue: &Queue, encoder: &mut CommandEncoder, queries: FrameQueries) {
+    pub fn end(&self, device: &Device, encoder: &mut CommandEncoder, queries: FrameQueries) {
         let size = 16 * queries.names.len() as u64;
         let buffer = |label, usage| -> Buffer {
             device.create_buffer(&BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
@@ -59,7 +65,7 @@ impl Timing {
         let readable = buffer("asvgf timestamps readback", BufferUsages::COPY_DST | BufferUsages::MAP_READ);
         encoder.resolve_query_set(&queries.set, 0..2 * queries.names.len() as u32, &resolved, 0);
         encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
-        let milliseconds = f64::from(queue.get_timestamp_period()) * 1e-6;
+        let milliseconds = self.milliseconds_per_tick;
         let done = Arc::clone(&self.done);
         let mapped = readable.clone();
         encoder.map_buffer_on_submit(&readable, MapMode::Read, 0..size, move |result| {
