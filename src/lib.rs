@@ -16,6 +16,8 @@ pub mod plan;
 #[cfg(feature = "path-tracer")]
 pub mod scene;
 mod settings;
+#[cfg(all(test, feature = "path-tracer"))]
+mod twins;
 mod view;
 
 pub use camera::Camera;
