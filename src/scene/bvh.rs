@@ -26,9 +26,13 @@ pub(crate) struct Child {
 }
 
 impl Child {
-    /// A box that no ray enters.
-    const EMPTY: Self = Self { low: [3.0e38; 3], reference: 0, high: [-3.0e38; 3], count: 0 };
+    /// A box that rays miss: a point so far away that only one direction in 10¹² leads there. An inverted box would not do, as
+    /// a slab test that sorts its distances takes it for everything. A ray that does get there must find a leaf: a node
+    /// that leads back to itself would never end. This one is the first triangle, which is degenerate where there is none.
+    const UNREACHABLE: Self = Self { low: FAR, reference: 0, high: FAR, count: 1 };
 }
+
+const FAR: [f32; 3] = [1.37e30, -0.71e30, 0.53e30];
 
 /// A reference to an instance instead of a node, in a top-level tree.
 pub(crate) const INSTANCE_BIT: u32 = 0x8000_0000;
@@ -72,13 +76,13 @@ pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]]) -> Tree {
 
 fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tree {
     if primitives == 0 || bvh.nodes.is_empty() {
-        let nodes = vec![Node { children: [Child::EMPTY; 2] }];
+        let nodes = vec![Node { children: [Child::UNREACHABLE; 2] }];
         return Tree { nodes, order: Vec::new(), depth: 1, bounds: [[0.0; 3]; 2] };
     }
     let mut tree = Tree { nodes: Vec::new(), order: Vec::with_capacity(primitives), depth: 1, bounds: [[0.0; 3]; 2] };
     let root = bvh.nodes[0];
     tree.bounds = [root.aabb().min.to_array(), root.aabb().max.to_array()];
-    tree.nodes.push(Node { children: [Child::EMPTY; 2] });
+    tree.nodes.push(Node { children: [Child::UNREACHABLE; 2] });
     // (node of obvhs, where its box belongs: our node and side, depth)
     let mut pending: Vec<(usize, usize, usize, u32)> = if root.is_leaf() {
         vec![(0, 0, 0, 1)]
@@ -108,12 +112,17 @@ fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tr
             tree.order.extend_from_slice(primitives);
         } else {
             let ours = tree.nodes.len();
-            tree.nodes.push(Node { children: [Child::EMPTY; 2] });
+            tree.nodes.push(Node { children: [Child::UNREACHABLE; 2] });
             let first = node.first_index as usize;
             pending.push((first, ours, 0, depth + 1));
             pending.push((first + 1, ours, 1, depth + 1));
         }
         tree.nodes[parent].children[side] = child;
+    }
+    if root.is_leaf() {
+        // Behind the box that nothing enters is the same again.
+        let Child { reference, count, .. } = tree.nodes[0].children[0];
+        tree.nodes[0].children[1] = Child { reference, count, ..Child::UNREACHABLE };
     }
     tree
 }
@@ -137,7 +146,9 @@ mod tests {
         let mut pending = vec![0_usize];
         while let Some(index) = pending.pop() {
             for child in tree.nodes[index].children {
-                if child.count > 0 {
+                if child.low == FAR {
+                    assert!(child.count > 0, "a ray that gets here must not go round in circles");
+                } else if child.count > 0 {
                     for row in child.reference..child.reference + child.count {
                         let triangle = tree.order[(row - first_row) as usize] as usize;
                         assert!(!std::mem::replace(&mut seen[triangle], true));
@@ -147,7 +158,7 @@ mod tests {
                             }
                         }
                     }
-                } else if child.low[0] <= child.high[0] {
+                } else {
                     pending.push((child.reference - first_node) as usize);
                 }
             }
@@ -167,7 +178,7 @@ mod tests {
     fn a_tree_of_nothing_has_a_root_that_no_ray_enters() {
         let tree = over_triangles(&[], 0, 0);
         assert_eq!(tree.nodes.len(), 1);
-        assert!(tree.nodes[0].children.iter().all(|c| c.low[0] > c.high[0]));
+        assert!(tree.nodes[0].children.iter().all(|c| c.low == FAR && c.count == 1));
     }
 
     #[test]
