@@ -81,3 +81,15 @@ pub(super) fn add_environment(environment: &Environment, texels: &mut Vec<u32>) 
     }
     EnvironmentPlace { radiance, alias: start, weight: weights.iter().sum() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::twins::layout::{assert_layout, fields};
+
+    #[test]
+    fn a_use_of_a_texture_lies_where_the_shaders_read_it() {
+        let fields = fields!(GpuTexture: first, width, height, mode, row_u, row_v);
+        assert_layout("TextureUse", fields, size_of::<GpuTexture>());
+    }
+}

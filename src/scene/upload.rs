@@ -551,3 +551,28 @@ fn transform_box(m: Mat4, [low, high]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
     let margin = (a.abs().max(b.abs())) * 4e-7;
     [(a - margin).to_array(), (b + margin).to_array()]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::passes::Pass;
+    use crate::plan::{Feature, Features};
+    use crate::twins::layout::{assert_layout, assert_layout_in, fields};
+
+    #[test]
+    fn the_scene_lies_where_the_shaders_read_it() {
+        let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_texels,
+            environment_alias, environment_width, environment_height, attribute_stride, uv0 as "uv_first",
+            uv1 as "uv_second", environment_density);
+        assert_layout("Scene", header, size_of::<Header>());
+        let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, specular, cutoff,
+            base_color_texture, metallic_roughness_texture, emissive_texture);
+        assert_layout("Material", material, size_of::<GpuMaterial>());
+        let light = fields!(GpuLight: kind, alias as "alias_index", threshold, pmf, position, triangle, axis, instance,
+            intensity, range, spot_scale, spot_offset);
+        assert_layout("Light", light, size_of::<GpuLight>());
+        let analytic = fields!(AnalyticLight: position, kind, axis, range, intensity, spot_scale, spot_offset, count);
+        let blinn_phong = Features::of(&[Feature::BlinnPhong]);
+        assert_layout_in(Pass::Gradient, blinn_phong, "AnalyticLight", analytic, size_of::<AnalyticLight>());
+    }
+}
