@@ -4,7 +4,7 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{unpack_rgb, unpack_normal, unpack_length}
+#import asvgf::packing::{unpack_rgb, unpack_normal, unpack_length, pack_tap}
 #import asvgf::edge_stop::{Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
@@ -12,7 +12,7 @@
 #ifdef FEEDBACK
 @group(0) @binding(3) var feedback: texture_2d<u32>;
 #endif
-@group(0) @binding(4) var color_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(4) var color_out: texture_storage_2d<rgba32uint, write>;
 #ifdef PREFILTER
 @group(0) @binding(5) var luminance_out: texture_storage_2d<r32float, write>;
 #endif
@@ -64,28 +64,25 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     var variance = bitcast<f32>(h.z);
 #endif
-    if length < SHORT {
-        // Moments over 7×7 about the centre's mean.
-        var first = 0.0;
-        var second = 0.0;
-        var weights = 0.0;
-        for (var y = -3; y <= 3; y++) {
-            for (var x = -3; x <= 3; x++) {
-                let tap = pixel + vec2(x, y);
-                if !inside(tap) {
-                    continue;
-                }
-                let w = weight(plane, normal, vec2(x, y), textureLoad(guide, tap, 0).xy);
-                if w <= 0.0 {
-                    continue;
-                }
-                let other = textureLoad(history, tap, 0);
-                let d = mean_luminance(other) - center;
-                first += w * d;
-                second += w * (bitcast<f32>(other.z) + d * d);
-                weights += w;
-            }
-        }
+    // Moments over 7×7 about the centre's mean; a loop of length 0 elsewhere, as a software adapter executes a branch
+    // either way, but not a loop.
+    var first = 0.0;
+    var second = 0.0;
+    var weights = 0.0;
+    let searched = select(0, 49, length < SHORT);
+    for (var i = 0; i < searched; i++) {
+        let offset = vec2(i % 7, i / 7) - 3;
+        let tap = pixel + offset;
+        let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
+        let there = weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
+        let w = select(0.0, there, inside(tap));
+        let other = textureLoad(history, clamped, 0);
+        let d = mean_luminance(other) - center;
+        first += w * d;
+        second += w * (bitcast<f32>(other.z) + d * d);
+        weights += w;
+    }
+    if searched > 0 {
         let mean = first / max(weights, 1e-6);
         // The fewer frames there are, the less the neighbours know either.
         let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / length);
@@ -103,21 +100,20 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     let color = unpack_rgb(h.xy);
 #endif
-    textureStore(color_out, pixel, vec4(color, variance));
+    textureStore(color_out, pixel, pack_tap(color, sqrt(variance), g));
 #ifdef PREFILTER
     var sum = 0.0;
-    var weights = 0.0;
-    for (var y = -1; y <= 1; y++) {
-        for (var x = -1; x <= 1; x++) {
-            let tap = pixel + vec2(x, y);
-            if !inside(tap) {
-                continue;
-            }
-            let tent = f32((2 - abs(x)) * (2 - abs(y)));
-            let w = tent * weight(plane, normal, vec2(x, y), textureLoad(guide, tap, 0).xy);
-            sum += w * mean_luminance(textureLoad(history, tap, 0));
-            weights += w;
-        }
+    weights = 0.0;
+    let smoothed = select(0, 9, length < SMOOTHED);
+    for (var i = 0; i < smoothed; i++) {
+        let offset = vec2(i % 3, i / 3) - 1;
+        let tap = pixel + offset;
+        let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
+        let tent = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+        let there = tent * weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
+        let w = select(0.0, there, inside(tap));
+        sum += w * mean_luminance(textureLoad(history, clamped, 0));
+        weights += w;
     }
     textureStore(luminance_out, pixel, vec4(sum / max(weights, 1e-6)));
 #endif

@@ -392,7 +392,7 @@ impl Denoiser {
                 Slot::Target => Some(BindingResource::TextureView(given.target)),
             };
         }
-        given.scene.and_then(|s| s.buffer(name)).map(Buffer::as_entire_binding)
+        given.scene.and_then(|s| s.resource(name))
     }
 }
 

@@ -79,6 +79,8 @@ pub enum Feature {
     VarianceOfMean,
     /// The first spatial iteration compares smoothed luminances.
     Prefilter,
+    /// The first of the spatial iterations.
+    FirstIteration,
     /// The published edge stops.
     ClassicStops,
     /// 25 taps instead of 13.
@@ -96,12 +98,13 @@ pub enum Feature {
 }
 
 impl Feature {
-    const ALL: [Self; 28] = {
+    const ALL: [Self; 29] = {
         use Feature::*;
         [
             Instanced, Textures, ShadingNormals, Specular, AlphaMask, Lights, Emitters, PunctualLights, EnvironmentLight,
             DirectEmission, LightSamplesOnly, ScatteredRaysOnly, Objects, Gradient, Reshade, BlinnPhong, HistoryRatio,
-            BlendByLambda, Feedback, VarianceOfMean, Prefilter, ClassicStops, FullKernel, LocalLinearFit, Unfiltered,
+            BlendByLambda, Feedback, VarianceOfMean, Prefilter, FirstIteration, ClassicStops, FullKernel, LocalLinearFit,
+            Unfiltered,
             Accumulate, TargetF16, TargetPicture,
         ]
     };
@@ -192,7 +195,7 @@ pub enum Image {
     History,
     /// The history's colour, where it comes from the spatial filter.
     Feedback,
-    /// Colour and variance between spatial iterations; two take turns.
+    /// Colour, variance, normal and depth between spatial iterations; two take turns.
     Color(u8),
     /// Smoothed luminance.
     Luminance,
@@ -227,11 +230,11 @@ impl Image {
         match self {
             Self::Visibility | Self::Object => TextureFormat::R32Uint,
             Self::Guide | Self::Radiance | Self::Emission | Self::Feedback => TextureFormat::Rg32Uint,
-            Self::History | Self::Samples => TextureFormat::Rgba32Uint,
+            Self::History | Self::Samples | Self::Color(_) => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
             Self::Luminance | Self::PairsProduct(_) => TextureFormat::R32Float,
             Self::Gradient(_) => TextureFormat::Rg32Float,
-            Self::Motion | Self::Color(_) | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
+            Self::Motion | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
                 TextureFormat::Rgba32Float
             }
         }

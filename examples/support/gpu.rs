@@ -11,7 +11,10 @@ pub struct Gpu {
 }
 
 /// Why there is no device, with what to do.
+#[derive(Debug)]
 pub struct NoGpu(String);
+
+impl std::error::Error for NoGpu {}
 
 impl fmt::Display for NoGpu {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -33,8 +36,7 @@ impl Gpu {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()
         };
-        let adapter =
-            pollster::block_on(instance.request_adapter(&options)).map_err(|e| NoGpu(e.to_string()))?;
+        let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| NoGpu(e.to_string()))?;
         // Large scenes and images need more than the least that WebGPU promises.
         let limits = wgpu::Limits {
             max_buffer_size: adapter.limits().max_buffer_size,
@@ -48,6 +50,8 @@ impl Gpu {
             ..Default::default()
         }))
         .map_err(|e| NoGpu(e.to_string()))?;
+        // Out of memory, mostly: a command can only say so and end.
+        device.on_uncaptured_error(std::sync::Arc::new(|error| fail(&error)));
         Ok(Self { device, queue, adapter: adapter.get_info() })
     }
 
@@ -97,7 +101,9 @@ impl Gpu {
 
     /// Waits until everything that was submitted is done.
     pub fn wait(&self) {
-        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the GPU answers");
+        if let Err(error) = self.device.poll(wgpu::PollType::wait_indefinitely()) {
+            fail(&error);
+        }
     }
 
     /// The linear colours of an rgba32float target.
@@ -106,4 +112,9 @@ impl Gpu {
         let channel = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
         bytes.chunks_exact(16).map(|t| [channel(&t[0..4]), channel(&t[4..8]), channel(&t[8..12])]).collect()
     }
+}
+
+fn fail(error: &dyn fmt::Display) -> ! {
+    eprintln!("error: the GPU failed: {error}");
+    std::process::exit(1)
 }

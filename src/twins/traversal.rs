@@ -165,15 +165,15 @@ fn ask_gpu(scene: &GpuScene, queries: &[Query]) -> Vec<Answer> {
         cache: None,
     });
     let group = |index: u32| {
-        let buffer = |name: &str| match name {
-            "rays" => &rays,
-            "answers" => &answers,
-            _ => scene.buffer(name).unwrap_or_else(|| panic!("no `{name}`")),
+        let resource = |name: &str| match name {
+            "rays" => rays.as_entire_binding(),
+            "answers" => answers.as_entire_binding(),
+            _ => scene.resource(name).unwrap_or_else(|| panic!("no `{name}`")),
         };
         let entries: Vec<_> = used
             .iter()
             .filter(|u| u.group == index)
-            .map(|u| wgpu::BindGroupEntry { binding: u.binding, resource: buffer(&u.name).as_entire_binding() })
+            .map(|u| wgpu::BindGroupEntry { binding: u.binding, resource: resource(&u.name) })
             .collect();
         let layout = &pipeline.get_bind_group_layout(index);
         device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
@@ -229,8 +229,8 @@ fn assert_right(query: &Query, answer: &Answer, triangles: &[[DVec3; 3]], what: 
 /// Compares the GPU's answers with obvhs'; where they differ, an intersection of every triangle in f64 decides.
 fn check(name: &str, scene: &Scene, pose: &Pose) {
     let gpu = gpu();
-    let mut uploaded = GpuScene::new(&gpu.device, scene).unwrap();
-    uploaded.update(&gpu.device, pose).unwrap();
+    let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, scene).unwrap();
+    gpu.submit(|encoder| uploaded.update(&gpu.device, encoder, pose)).unwrap();
     let world = triangles(scene, pose);
     let narrow: Vec<Triangle> =
         world.iter().map(|t| t.map(|p| Vec3A::from(p.as_vec3()))).map(|[v0, v1, v2]| Triangle { v0, v1, v2 }).collect();
@@ -339,7 +339,7 @@ fn a_thousand_instances_mirrored_and_stretched() {
         scene.nodes.push(Node { meshes: vec![0], transform, ..Default::default() });
     }
     let pose = scene.pose(None, 0.0);
-    assert!(GpuScene::new(&gpu().device, &scene).unwrap().traits().instanced);
+    assert!(GpuScene::new(&gpu().device, &gpu().queue, &scene).unwrap().traits().instanced);
     check("instances", &scene, &pose);
 }
 

@@ -1,0 +1,209 @@
+//! Renders a scene, denoises it, and writes pictures: `cargo run --release --example render -- --help`.
+
+#[path = "support/compare.rs"]
+mod compare;
+#[path = "support/film.rs"]
+mod film;
+#[path = "support/gpu.rs"]
+mod gpu;
+#[path = "support/options.rs"]
+mod options;
+#[path = "support/stage.rs"]
+mod stage;
+#[path = "support/table.rs"]
+mod table;
+#[path = "support/tone.rs"]
+mod tone;
+
+use asvgf::scene::GpuScene;
+use asvgf::{Camera, Gradient, Settings, View, image_io};
+use compare::Tile;
+use film::Film;
+use gpu::Gpu;
+use indicatif::{ProgressBar, ProgressStyle};
+use options::{Format, Options, Request, Usage, Viewpoint};
+use stage::Stage;
+use std::error::Error;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Paths per pixel of the comparison's reference, where the options name no other number.
+const REFERENCE: u32 = 64;
+
+fn main() -> ExitCode {
+    let result = match options::parse(std::env::args_os().skip(1)) {
+        Ok(Request::Help) => {
+            say(options::HELP);
+            Ok(())
+        }
+        Ok(Request::Render(options)) => run(&options),
+        Err(usage) => Err(usage.into()),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.is::<Usage>() => {
+            eprintln!("error: {error}\n(--help lists all options)");
+            ExitCode::from(2)
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(options: &Options) -> Result<(), Box<dyn Error>> {
+    if options.list {
+        say(&table::list(options, &stage::read(options)?));
+        return Ok(());
+    }
+    let stage = Stage::load(options)?;
+    std::fs::create_dir_all(&options.out).map_err(|e| format!("--out {}: {e}", options.out.display()))?;
+    let gpu = Gpu::new()?;
+    let mut scene = GpuScene::new(&gpu.device, &stage.scene)?;
+    let mut film = Film::new(&gpu, options.size, options.settings.clone())?;
+    // The other kind of α, with the same noise.
+    let mut other = options.compare.then(|| Film::new(&gpu, options.size, other(&options.settings))).transpose()?;
+    let mut reference = Film::new(&gpu, options.size, reference_settings(&options.settings))?;
+
+    let bar = progress(options);
+    let mut times = Vec::new();
+    let mut camera = Camera::default();
+    let last = options.start_frame + options.frames - 1;
+    for frame in options.start_frame..=last {
+        bar.set_message(format!("frame {frame} of {}…{last}", options.start_frame));
+        let pose = stage.pose(frame);
+        scene.update(&gpu.device, &pose)?;
+        camera = stage.camera(&pose, frame);
+        times.push(film.render(&scene, camera, frame).map_err(|e| blame(e, &options.viewpoint))?);
+        bar.inc(options.settings.tracer.samples.into());
+        if let Some(other) = &mut other {
+            other.render(&scene, camera, frame)?;
+            bar.inc(options.settings.tracer.samples.into());
+        }
+        for &view in &options.outputs {
+            write(options, &mut film, view, frame)?;
+        }
+        if let Some(paths) = options.reference {
+            let colors = reference.converge(&scene, camera, paths, |n| bar.inc(n.into()))?;
+            write_reference(options, &colors, frame)?;
+        }
+    }
+    if let Some(mut other) = other {
+        bar.set_message("reference of the last frame");
+        let paths = options.reference.unwrap_or(REFERENCE);
+        let truth = reference.converge(&scene, camera, paths, |n| bar.inc(n.into()))?;
+        let (adaptive, constant) =
+            if is_constant(&options.settings) { (&mut other, &mut film) } else { (&mut film, &mut other) };
+        let samples = options.settings.tracer.samples;
+        let exposure = options.exposure.unwrap_or_else(|| compare::exposure(&truth));
+        let alpha = constant.denoiser.settings().filter.alpha;
+        let tiles = [
+            // Of the constant one: the adaptive one repeats some of the last frame's paths.
+            Tile { label: format!("noisy, {samples} spp"), colors: constant.numbers(View::Noisy)? },
+            Tile { label: format!("constant alpha {alpha}"), colors: constant.numbers(View::Denoised)? },
+            Tile { label: "adaptive alpha".into(), colors: adaptive.numbers(View::Denoised)? },
+            Tile { label: format!("reference, {paths} spp"), colors: truth },
+        ];
+        compare::write(&options.out.join("comparison.png"), options.size, &tiles, exposure)?;
+    }
+    bar.finish_and_clear();
+    if let Some(plan) = film.denoiser.plan().filter(|_| options.explain) {
+        say(&table::plan(plan, &scene.traits()));
+    }
+    say(&table::times(&times, options, &gpu));
+    let pictures = if options.compare { ", and comparison.png" } else { "" };
+    say(&format!("{} frames in {}{pictures}\n", options.frames, options.out.display()));
+    Ok(())
+}
+
+/// Prints; whoever reads may have seen enough, as `head` does.
+fn say(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+}
+
+/// A bar that counts paths per pixel, as they take the time. It does not show where there is no terminal.
+fn progress(options: &Options) -> ProgressBar {
+    let films = if options.compare { 2 } else { 1 };
+    let per_frame = films * u64::from(options.settings.tracer.samples) + u64::from(options.reference.unwrap_or(0));
+    let once = if options.compare { u64::from(options.reference.unwrap_or(REFERENCE)) } else { 0 };
+    let bar = ProgressBar::new(u64::from(options.frames) * per_frame + once);
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {elapsed} gone, {eta} to go");
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn is_constant(settings: &Settings) -> bool {
+    settings.filter.gradient == Gradient::Off
+}
+
+/// The settings that a comparison sets against these: constant where they are adaptive, and the other way round.
+fn other(settings: &Settings) -> Settings {
+    let settings = settings.clone();
+    if !is_constant(&settings) {
+        return settings.constant(0.2);
+    }
+    let preset = Settings::adaptive().filter;
+    let filter = asvgf::FilterSettings {
+        gradient: preset.gradient,
+        alpha: preset.alpha,
+        max_history: preset.max_history,
+        ..settings.filter.clone()
+    };
+    Settings { filter, ..settings }
+}
+
+/// Paths that share no random number with those they are compared with.
+fn reference_settings(settings: &Settings) -> Settings {
+    let mut settings = Settings { mode: asvgf::Mode::Reference, ..settings.clone() };
+    settings.tracer.seed ^= 0x5eed_0000;
+    settings
+}
+
+/// An error of the camera is one of the options that made it.
+fn blame(error: asvgf::Error, viewpoint: &Viewpoint) -> Box<dyn Error> {
+    match error {
+        asvgf::Error::Camera { .. } if *viewpoint != Viewpoint::default() => {
+            Usage(format!("--eye, --target, --up, --fov-y: {error}")).into()
+        }
+        _ => error.into(),
+    }
+}
+
+fn path(options: &Options, name: &str, frame: u32, format: Format) -> PathBuf {
+    let extension = if format == Format::Png { "png" } else { "exr" };
+    options.out.join(format!("{name}_{frame:04}.{extension}"))
+}
+
+/// Writes an image of the last frame in each format.
+fn write(options: &Options, film: &mut Film<'_>, view: View, frame: u32) -> Result<(), Box<dyn Error>> {
+    let [width, height] = options.size;
+    for &format in &options.formats {
+        let path = path(options, view.name(), frame, format);
+        match format {
+            Format::Png => {
+                let pixels = film.picture(view, options.exposure.unwrap_or(1.0))?;
+                image_io::write_png(path, width, height, &pixels)?;
+            }
+            Format::Exr => image_io::write_exr_rgb(path, width, height, &film.numbers(view)?)?,
+        }
+    }
+    Ok(())
+}
+
+/// Writes a converged image in each format.
+fn write_reference(options: &Options, colors: &[[f32; 3]], frame: u32) -> Result<(), Box<dyn Error>> {
+    let [width, height] = options.size;
+    for &format in &options.formats {
+        let path = path(options, "reference", frame, format);
+        match format {
+            Format::Png => {
+                let exposure = options.exposure.unwrap_or(1.0);
+                let pixels: Vec<[u8; 4]> = colors.iter().map(|&color| tone::pixel(color, exposure)).collect();
+                image_io::write_png(path, width, height, &pixels)?;
+            }
+            Format::Exr => image_io::write_exr_rgb(path, width, height, colors)?,
+        }
+    }
+    Ok(())
+}
