@@ -242,17 +242,18 @@ fn check(name: &str, scene: &Scene, pose: &Pose) {
         let what = format!("{name}, ray {i}");
         let expected = if world.is_empty() { None } else { ask_obvhs(&bvh, &narrow, query) };
         hits += usize::from(expected.is_some());
-        let same = match (expected, answer.distance) {
-            (None, None) => true,
+        let (same_distance, same_triangle) = match (expected, answer.distance) {
+            (None, None) => (true, true),
             (Some((triangle, distance)), Some(found)) => {
                 let corners: DVec3 = world[triangle].iter().sum();
-                (distance - found).abs() <= query.tolerance(distance)
-                    && corners.abs_diff_eq(answer.corners, 1e-5 * (corners.length() + 1.0))
+                let same = corners.abs_diff_eq(answer.corners, 1e-5 * (corners.length() + 1.0));
+                ((distance - found).abs() <= query.tolerance(distance), same)
             }
-            _ => false,
+            _ => (false, false),
         };
-        if !same {
-            disputed += 1;
+        // Of surfaces that coincide, as the bottom of a block and the floor, either will do.
+        disputed += usize::from(!same_distance);
+        if !(same_distance && same_triangle) {
             assert_right(query, answer, &world, &what);
         }
         // The weights lead to the point on the ray.
@@ -271,7 +272,7 @@ fn check(name: &str, scene: &Scene, pose: &Pose) {
         );
     }
     println!("{name}: {} triangles, {hits} of {RAYS} rays hit, {disputed} decided in f64", world.len());
-    assert!(disputed <= RAYS / 500, "{name}: {disputed} answers differ");
+    assert!(disputed <= RAYS / 1000, "{name}: {disputed} answers differ");
     assert!(hits > RAYS / 100 || world.len() < 2, "{name}: only {hits} hits");
 }
 
