@@ -1,0 +1,85 @@
+//! Lights without area over a floor: no noise, so every pixel is compared.
+
+use super::{floor_points, from_above, images, tracer};
+use crate::common::plane::{V, dot, length, scale, sub};
+use crate::common::scenes::{lambert, quad, scene, shine};
+use asvgf::Sampling;
+use asvgf::scene::{LightKind, Scene};
+use std::f64::consts::PI;
+
+const ALBEDO: f64 = 0.6;
+const INTENSITY: [f32; 3] = [3.0, 2.0, 0.5];
+const PLACE: [f32; 3] = [0.8, 1.7, -0.4];
+
+fn lit_by(kind: LightKind, range: f32) -> Scene {
+    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let mut scene = scene(vec![lambert([ALBEDO as f32; 3])], vec![floor]);
+    shine(&mut scene, kind, INTENSITY, range, PLACE);
+    scene
+}
+
+/// Compares all pixels with a radiance per unit of intensity.
+fn assert_floor_shows(scene: Scene, expected: impl Fn(V) -> f64, what: &str) {
+    for sampling in [Sampling::Both, Sampling::Lights] {
+        let image = images(scene.clone(), from_above(), tracer(sampling, 2), 1).remove(0);
+        for (color, point) in image.iter().zip(floor_points()) {
+            for (c, i) in color.iter().zip(INTENSITY) {
+                let expected = f64::from(i) * expected(point);
+                // Where a cone has all but ended, the difference of two cosines is all there is.
+                let allowed = 2e-4 * expected + 1e-6;
+                assert!((f64::from(*c) - expected).abs() <= allowed, "{what}, {point:?}: {c}, not {expected}");
+            }
+        }
+        let lit = image.iter().filter(|c| c[0] > 0.0).count();
+        assert!(lit > image.len() / 10, "{what}: too little light to compare");
+    }
+}
+
+/// Inverse square and cosine on the floor, and the cosine at a light that shines down.
+fn falloff(point: V) -> (f64, f64, f64) {
+    let way = sub(PLACE.map(f64::from), point);
+    let distance = length(way);
+    let cosine = dot(scale(way, 1.0 / distance), [0.0, 1.0, 0.0]);
+    (ALBEDO / PI * cosine / (distance * distance), distance, cosine)
+}
+
+#[test]
+fn a_point_light_falls_off_with_the_square() {
+    assert_floor_shows(lit_by(LightKind::Point, f32::INFINITY), |p| falloff(p).0, "point");
+}
+
+#[test]
+fn a_range_ends_it_smoothly() {
+    // KHR_lights_punctual: max(min(1 − (d / range)⁴, 1), 0) / d²
+    let expected = |p: V| {
+        let (plain, distance, _) = falloff(p);
+        plain * (1.0 - (distance / 1.9).powi(4)).clamp(0.0, 1.0)
+    };
+    assert_floor_shows(lit_by(LightKind::Point, 1.9), expected, "range");
+}
+
+#[test]
+fn a_spot_fades_from_its_inner_to_its_outer_angle() {
+    let (inner, outer) = (0.15_f32, 0.5_f32);
+    let expected = |p: V| {
+        let (plain, _, cosine) = falloff(p);
+        let [full, none] = [inner, outer].map(|a| f64::from(a).cos());
+        plain * ((cosine - none) / (full - none)).clamp(0.0, 1.0).powi(2)
+    };
+    assert_floor_shows(lit_by(LightKind::Spot { inner, outer }, f32::INFINITY), expected, "spot");
+}
+
+#[test]
+fn a_directional_light_is_the_same_everywhere() {
+    assert_floor_shows(lit_by(LightKind::Directional, f32::INFINITY), |_| ALBEDO / PI, "directional");
+}
+
+#[test]
+fn two_lights_add_up() {
+    let mut scene = lit_by(LightKind::Point, f32::INFINITY);
+    shine(&mut scene, LightKind::Directional, INTENSITY, f32::INFINITY, [0.0; 3]);
+    let images = images(scene, from_above(), tracer(Sampling::Both, 0), 64);
+    let expected = super::over_floor(|p| falloff(p).0 + ALBEDO / PI) * f64::from(INTENSITY[0]);
+    // One of the two is sampled at a time.
+    super::channel(&images, 0).assert_is(expected, super::ROUNDING, "point and directional");
+}
