@@ -9,13 +9,13 @@ use crate::scene::{GpuScene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
 use std::collections::{BTreeMap, BTreeSet};
-use wgpu::{BackendOptions, Backends, Device, DeviceDescriptor, Instance, InstanceDescriptor, TextureFormat};
+use wgpu::{BackendOptions, Backends, Device, DeviceDescriptor, Instance, InstanceDescriptor, Queue, TextureFormat};
 
 /// Bound by name although no step lists them.
 const GIVEN: [&str; 5] = ["frame", "stride", "show", "analytic_lights", "analytic_lights_previous"];
 
 /// wgpu's validation without any GPU.
-fn noop_device() -> Device {
+fn noop_device() -> (Device, Queue) {
     let noop = wgpu::NoopBackendOptions { enable: true, ..Default::default() };
     let instance = Instance::new(InstanceDescriptor {
         backends: Backends::NOOP,
@@ -23,7 +23,7 @@ fn noop_device() -> Device {
         ..InstanceDescriptor::new_without_display_handle()
     });
     let adapter = pollster::block_on(instance.request_adapter(&Default::default())).unwrap();
-    pollster::block_on(adapter.request_device(&DeviceDescriptor::default())).unwrap().0
+    pollster::block_on(adapter.request_device(&DeviceDescriptor::default())).unwrap()
 }
 
 /// All combinations: at some 150 shaders a second they are checked in a quarter of a minute.
@@ -133,14 +133,14 @@ fn check(device: &Device, scene: &GpuScene, shaders: &mut Shaders, permutation: 
     let named: BTreeSet<&str> = step.bindings.iter().map(|(name, _)| *name).collect();
     assert_eq!(used, named, "{what}: what its shader uses, and what its step names");
     for name in kernel.names(1).chain(kernel.names(0).filter(|n| n.starts_with("analytic"))) {
-        assert!(scene.buffer(name).is_some(), "{what}: the scene has no `{name}`");
+        assert!(scene.resource(name).is_some(), "{what}: the scene has no `{name}`");
     }
 }
 
 #[test]
 fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
-    let device = noop_device();
-    let scene = GpuScene::new(&device, &builtin::scene("cornell", "static").unwrap()).unwrap();
+    let (device, queue) = noop_device();
+    let scene = GpuScene::new(&device, &queue, &builtin::scene("cornell", "static").unwrap()).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     let steps = steps();
     let mut counts = BTreeMap::<&str, usize>::new();
@@ -154,8 +154,8 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
 
 #[test]
 fn every_stack_size_compiles() {
-    let device = noop_device();
-    let scene = GpuScene::new(&device, &builtin::scene("pillars", "all").unwrap()).unwrap();
+    let (device, queue) = noop_device();
+    let scene = GpuScene::new(&device, &queue, &builtin::scene("pillars", "all").unwrap()).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     let plan = Plan::path_traced(&scene.traits(), &Settings::adaptive(), TextureFormat::Rgba32Float);
     for stack in [4, 64] {

@@ -35,7 +35,7 @@ impl Stage {
 
     /// A stage on another device.
     pub fn on(gpu: &'static Gpu, scene: Scene, size: [u32; 2], settings: Settings) -> Self {
-        let uploaded = GpuScene::new(&gpu.device, &scene).unwrap();
+        let uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
         let descriptor = DenoiserDescriptor { size, settings, timing: false };
         let denoiser = Denoiser::new(&gpu.device, &gpu.queue, &descriptor).unwrap();
         let target = gpu.target(size, TextureFormat::Rgba32Float);
@@ -65,7 +65,7 @@ impl Stage {
 
     /// Records the next frame in a pose.
     pub fn record_pose(&mut self, encoder: &mut CommandEncoder, pose: &Pose) -> Result<(), Error> {
-        self.uploaded.update(&self.gpu.device, pose).unwrap();
+        self.uploaded.update(&self.gpu.device, encoder, pose).unwrap();
         let camera = self.camera_in(pose);
         let frame = Frame { scene: &self.uploaded, camera, index: self.index, target: &self.target };
         self.denoiser.render(&self.gpu.device, encoder, &frame)?;
