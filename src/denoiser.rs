@@ -295,8 +295,7 @@ impl Denoiser {
                 contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
                 usage: BufferUsages::UNIFORM,
             });
-            let resources =
-                Resources { scene: &|_| None, stack: 0, uniform: &last.uniform, target, show: Some(&show) };
+            let resources = Resources { scene: &|_| None, stack: 0, uniform: &last.uniform, target, show: Some(&show) };
             self.dispatch(device, encoder, &step, &resources, None)
         });
         self.last = Some(last);

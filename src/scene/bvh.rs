@@ -148,7 +148,8 @@ mod tests {
         while let Some(index) = pending.pop() {
             for child in tree.nodes[index].children {
                 if child.reference & LEAF != 0 {
-                    let (first, count) = (child.reference & ((1 << COUNT_SHIFT) - 1), child.reference >> COUNT_SHIFT & 15);
+                    let (first, count) =
+                        (child.reference & ((1 << COUNT_SHIFT) - 1), child.reference >> COUNT_SHIFT & 15);
                     for row in first..first + count {
                         let triangle = tree.order[(row - first_row) as usize] as usize;
                         assert!(!std::mem::replace(&mut seen[triangle], true));

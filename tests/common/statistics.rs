@@ -50,6 +50,9 @@ impl Estimate {
     #[track_caller]
     pub fn assert_agrees(self, other: Self, rounding: f64, what: &str) {
         let allowed = 3.0 * self.error.hypot(other.error) + rounding * other.mean.abs();
-        assert!((self.mean - other.mean).abs() <= allowed, "{what}: {self:?} and {other:?} differ by more than {allowed}");
+        assert!(
+            (self.mean - other.mean).abs() <= allowed,
+            "{what}: {self:?} and {other:?} differ by more than {allowed}"
+        );
     }
 }

@@ -88,7 +88,10 @@ fn a_setting_out_of_range() {
         ("filter.sigma_depth", wrong(FilterSettings { sigma_depth: 0.0, ..filter.clone() })),
         ("filter.sigma_normal", wrong(FilterSettings { sigma_normal: f32::INFINITY, ..filter.clone() })),
         ("filter.ridge", wrong(FilterSettings { ridge: 0.0, ..filter })),
-        ("tracer.samples", Settings { tracer: TracerSettings { samples: 0, ..Default::default() }, ..Settings::adaptive() }),
+        (
+            "tracer.samples",
+            Settings { tracer: TracerSettings { samples: 0, ..Default::default() }, ..Settings::adaptive() },
+        ),
         (
             "tracer.bounces",
             Settings { tracer: TracerSettings { bounces: 1025, ..Default::default() }, ..Settings::adaptive() },
@@ -110,9 +113,7 @@ fn a_size_that_no_texture_has() {
     let mut pair = Pair::new();
     let limit = gpu().device.limits().max_texture_dimension_2d;
     for size in [[0, 16], [24, 0], [limit + 1, 16]] {
-        let named = |error: &Error| {
-            matches!(error, Error::Size { width, height, limit: l } if [*width, *height] == size && *l == limit)
-        };
+        let named = |error: &Error| matches!(error, Error::Size { width, height, limit: l } if [*width, *height] == size && *l == limit);
         let descriptor = DenoiserDescriptor { size, ..Default::default() };
         let error = Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap_err();
         assert!(named(&error), "{error}");
