@@ -26,9 +26,12 @@ pub(crate) struct Child {
 }
 
 impl Child {
-    /// A box that no ray enters.
-    const EMPTY: Self = Self { low: [3.0e38; 3], reference: LEAF, high: [-3.0e38; 3], pad: 0 };
+    /// A box that rays miss: a point so far away that only one direction in 10¹² leads there, to a leaf of nothing. An inverted
+    /// box would not do, as a slab test that sorts its two distances takes it for everything.
+    const UNREACHABLE: Self = Self { low: FAR, reference: LEAF, high: FAR, pad: 0 };
 }
+
+const FAR: [f32; 3] = [1.37e30, -0.71e30, 0.53e30];
 
 /// Marks the reference of a leaf, as in shaders/shared/traverse.wgsl.
 const LEAF: u32 = 0x8000_0000;
@@ -83,13 +86,13 @@ pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]]) -> Tree {
 
 fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tree {
     if primitives == 0 || bvh.nodes.is_empty() {
-        let nodes = vec![Node { children: [Child::EMPTY; 2] }];
+        let nodes = vec![Node { children: [Child::UNREACHABLE; 2] }];
         return Tree { nodes, order: Vec::new(), depth: 1, bounds: [[0.0; 3]; 2] };
     }
     let mut tree = Tree { nodes: Vec::new(), order: Vec::with_capacity(primitives), depth: 1, bounds: [[0.0; 3]; 2] };
     let root = bvh.nodes[0];
     tree.bounds = [root.aabb().min.to_array(), root.aabb().max.to_array()];
-    tree.nodes.push(Node { children: [Child::EMPTY; 2] });
+    tree.nodes.push(Node { children: [Child::UNREACHABLE; 2] });
     // (node of obvhs, where its box belongs: our node and side, depth)
     let mut pending: Vec<(usize, usize, usize, u32)> = if root.is_leaf() {
         vec![(0, 0, 0, 1)]
@@ -118,12 +121,16 @@ fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tr
             tree.order.extend_from_slice(primitives);
         } else {
             let ours = tree.nodes.len();
-            tree.nodes.push(Node { children: [Child::EMPTY; 2] });
+            tree.nodes.push(Node { children: [Child::UNREACHABLE; 2] });
             let first = node.first_index as usize;
             pending.push((first, ours, 0, depth + 1));
             pending.push((first + 1, ours, 1, depth + 1));
         }
         tree.nodes[parent].children[side] = child;
+    }
+    if root.is_leaf() {
+        // Should a ray get to the other child, the same again does no harm: the end of the stack would.
+        tree.nodes[0].children[1].reference = tree.nodes[0].children[0].reference;
     }
     tree
 }
@@ -147,7 +154,9 @@ mod tests {
         let mut pending = vec![0_usize];
         while let Some(index) = pending.pop() {
             for child in tree.nodes[index].children {
-                if child.reference & LEAF != 0 {
+                if child.low == FAR {
+                    assert!(child.reference & LEAF != 0, "a ray that gets here must not go round in circles");
+                } else if child.reference & LEAF != 0 {
                     let (first, count) =
                         (child.reference & ((1 << COUNT_SHIFT) - 1), child.reference >> COUNT_SHIFT & 15);
                     for row in first..first + count {
@@ -179,7 +188,7 @@ mod tests {
     fn a_tree_of_nothing_has_a_root_that_no_ray_enters() {
         let tree = over_triangles(&[], 0, 0);
         assert_eq!(tree.nodes.len(), 1);
-        assert!(tree.nodes[0].children.iter().all(|c| c.low[0] > c.high[0]));
+        assert!(tree.nodes[0].children.iter().all(|c| c.low == FAR && c.reference == leaf(0, 0)));
     }
 
     #[test]

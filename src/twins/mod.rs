@@ -5,3 +5,5 @@
 mod gpu;
 pub(crate) mod layout;
 mod permutations;
+mod random;
+mod traversal;

@@ -94,8 +94,8 @@ fn another_scene_begins_anew() {
     let mut stage = still([31, 17]);
     stage.frames(6);
     // A copy, so that nothing but the history's length tells.
-    stage.uploaded =
-        GpuScene::new(&stage.gpu.device, &stage.gpu.queue, &builtin::scene("cornell", "static").unwrap()).unwrap();
+    let gpu = stage.gpu;
+    stage.uploaded = GpuScene::new(&gpu.device, &gpu.queue, &builtin::scene("cornell", "static").unwrap()).unwrap();
     assert_eq!(next(&mut stage), fresh([31, 17], Settings::adaptive(), 6));
 }
 
