@@ -12,10 +12,6 @@
 @group(0) @binding(1) var<uniform> stride: i32;
 // Demodulated radiance, deviation of its luminance, normal and depth.
 @group(0) @binding(3) var color: texture_2d<u32>;
-#ifdef PREFILTER
-// The luminance to compare, instead of that of `color`.
-@group(0) @binding(4) var smoothed: texture_2d<f32>;
-#endif
 @group(0) @binding(5) var color_out: texture_storage_2d<rgba32uint, write>;
 #ifdef FEEDBACK
 // The next frame's history of the colour.
@@ -53,20 +49,12 @@ fn load(pixel: vec2<i32>, offset: vec2<i32>) -> vec4<u32> {
     return select(vec4(0u), texel, inside(tap));
 }
 
-fn compared(texel: vec4<u32>, pixel: vec2<i32>, offset: vec2<i32>) -> f32 {
-#ifdef PREFILTER
-    return textureLoad(smoothed, clamp(pixel + offset * stride, vec2(0), vec2<i32>(frame.size) - 1), 0).x;
-#else
-    return luminance(tap_color(texel));
-#endif
-}
-
-fn add_tap(sums: ptr<function, Sums>, c: Center, texel: vec4<u32>, l: f32, offset: vec2<i32>, kernel: f32) {
+fn add_tap(sums: ptr<function, Sums>, c: Center, texel: vec4<u32>, offset: vec2<i32>, kernel: f32) {
     let depth = bitcast<f32>(texel.w);
     let sample = tap_color(texel);
     let sample_variance = tap_variance(texel);
     let cosine = dot(c.normal, unpack_normal_511(texel.z));
-    let difference = l - c.own;
+    let difference = luminance(sample) - c.own;
 #ifdef CLASSIC_STOPS
     // The talk's three stops. ∇z is that of the tangent plane, exact where differences of neighbours are not; the ε of
     // 0.1 % of the depth is what a surface seen face on (∇z = 0) is allowed.
@@ -154,7 +142,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     let variance = own_variance;
 #endif
-    let own_luminance = compared(own, pixel, vec2(0));
+    let own_luminance = luminance(own_color);
     let normal = unpack_normal(own.z);
     var plane = tangent_plane(vec2<f32>(pixel), normal, depth);
 #ifdef CLASSIC_STOPS
@@ -174,14 +162,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     sums.weight = 1.0;
     sums.variance = own_variance;
     // The B₃ spline (1, ⅔, ⅙)², relative to its centre.
-    add_tap(&sums, c, west, compared(west, pixel, vec2(-1, 0)), vec2(-1, 0), 2.0 / 3.0);
-    add_tap(&sums, c, east, compared(east, pixel, vec2(1, 0)), vec2(1, 0), 2.0 / 3.0);
-    add_tap(&sums, c, north, compared(north, pixel, vec2(0, -1)), vec2(0, -1), 2.0 / 3.0);
-    add_tap(&sums, c, south, compared(south, pixel, vec2(0, 1)), vec2(0, 1), 2.0 / 3.0);
-    add_tap(&sums, c, north_west, compared(north_west, pixel, vec2(-1, -1)), vec2(-1, -1), 4.0 / 9.0);
-    add_tap(&sums, c, north_east, compared(north_east, pixel, vec2(1, -1)), vec2(1, -1), 4.0 / 9.0);
-    add_tap(&sums, c, south_west, compared(south_west, pixel, vec2(-1, 1)), vec2(-1, 1), 4.0 / 9.0);
-    add_tap(&sums, c, south_east, compared(south_east, pixel, vec2(1, 1)), vec2(1, 1), 4.0 / 9.0);
+    add_tap(&sums, c, west, vec2(-1, 0), 2.0 / 3.0);
+    add_tap(&sums, c, east, vec2(1, 0), 2.0 / 3.0);
+    add_tap(&sums, c, north, vec2(0, -1), 2.0 / 3.0);
+    add_tap(&sums, c, south, vec2(0, 1), 2.0 / 3.0);
+    add_tap(&sums, c, north_west, vec2(-1, -1), 4.0 / 9.0);
+    add_tap(&sums, c, north_east, vec2(1, -1), 4.0 / 9.0);
+    add_tap(&sums, c, south_west, vec2(-1, 1), 4.0 / 9.0);
+    add_tap(&sums, c, south_east, vec2(1, 1), 4.0 / 9.0);
     add_far_tap(&sums, c, pixel, vec2(-2, 0), 1.0 / 6.0);
     add_far_tap(&sums, c, pixel, vec2(2, 0), 1.0 / 6.0);
     add_far_tap(&sums, c, pixel, vec2(0, -2), 1.0 / 6.0);
@@ -213,6 +201,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 
 fn add_far_tap(sums: ptr<function, Sums>, c: Center, pixel: vec2<i32>, offset: vec2<i32>, kernel: f32) {
-    let texel = load(pixel, offset);
-    add_tap(sums, c, texel, compared(texel, pixel, offset), offset, kernel);
+    add_tap(sums, c, load(pixel, offset), offset, kernel);
 }

@@ -36,9 +36,6 @@
 @group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
 // What the spatial filter reads.
 @group(0) @binding(14) var color_out: texture_storage_2d<rgba32uint, write>;
-#ifdef PREFILTER
-@group(0) @binding(15) var luminance_out: texture_storage_2d<r32float, write>;
-#endif
 
 struct History {
     color: vec3<f32>,
@@ -177,9 +174,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if depth <= 0.0 {
         textureStore(history_out, pixel, vec4(0u));
         textureStore(color_out, pixel, vec4(0u));
-#ifdef PREFILTER
-        textureStore(luminance_out, pixel, vec4(0.0));
-#endif
 #ifdef FEEDBACK
         textureStore(feedback_out, pixel, vec4(0u));
 #endif
@@ -258,7 +252,4 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // What is filtered is what was stored.
     let stored = unpack_rgb(packed);
     textureStore(color_out, pixel, pack_tap(stored, sqrt(guiding), g));
-#ifdef PREFILTER
-    textureStore(luminance_out, pixel, vec4(luminance(stored)));
-#endif
 }

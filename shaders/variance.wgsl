@@ -1,6 +1,5 @@
 // While a pixel's history is short its own variance means little: it is estimated from the neighbours instead
-// (Schied et al. 2017, §4.2), and the luminance that the first à-trous iteration compares is smoothed, so that a lucky
-// dark neighbour is not preferred to an unlucky bright one. Pixels with a longer history keep what temporal.wgsl wrote.
+// (Schied et al. 2017, §4.2). Pixels with a longer history keep what temporal.wgsl wrote.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
@@ -13,17 +12,9 @@
 @group(0) @binding(3) var feedback: texture_2d<u32>;
 #endif
 @group(0) @binding(4) var color_out: texture_storage_2d<rgba32uint, write>;
-#ifdef PREFILTER
-@group(0) @binding(5) var luminance_out: texture_storage_2d<r32float, write>;
-#endif
 
-// History length below which the variance is a spatial one (paper: 4), and below which the luminance is smoothed.
+// History length below which the variance is a spatial one.
 const SHORT: f32 = 4.0;
-#ifdef PREFILTER
-const SMOOTHED: f32 = 16.0;
-#else
-const SMOOTHED: f32 = 4.0;
-#endif
 
 // exp(−(distance from the plane / 2 % of the depth) − 64·(1 − n·n')), cut at 8.
 fn weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<u32>) -> f32 {
@@ -52,25 +43,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let h = textureLoad(history, pixel, 0);
     let length = unpack_length(h.w);
-    if length <= 0.0 || length >= SMOOTHED {
+    if length <= 0.0 || length >= SHORT {
         return;
     }
     let g = textureLoad(guide, pixel, 0).xy;
     let normal = unpack_normal(g.x);
     let plane = tangent_plane(vec2<f32>(pixel), normal, bitcast<f32>(g.y));
     let center = mean_luminance(h);
-#ifdef VARIANCE_OF_MEAN
-    var variance = bitcast<f32>(h.z) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
-#else
-    var variance = bitcast<f32>(h.z);
-#endif
-    // Moments over 7×7 about the centre's mean; a loop of length 0 elsewhere, as a software adapter executes a branch
-    // either way, but not a loop.
+    // Moments over 7×7 about the centre's mean.
     var first = 0.0;
     var second = 0.0;
     var weights = 0.0;
-    let searched = select(0, 49, length < SHORT);
-    for (var i = 0; i < searched; i++) {
+    for (var i = 0; i < 49; i++) {
         let offset = vec2(i % 7, i / 7) - 3;
         let tap = pixel + offset;
         let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
@@ -82,18 +66,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         second += w * (bitcast<f32>(other.z) + d * d);
         weights += w;
     }
-    if searched > 0 {
-        let mean = first / max(weights, 1e-6);
-        // The fewer frames there are, the less the neighbours know either.
-        let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / length);
+    let mean = first / max(weights, 1e-6);
+    // The fewer frames there are, the less the neighbours know either.
+    let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / length);
 #ifdef VARIANCE_OF_MEAN
-        variance = mix(spatial, variance, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0));
+    let own = bitcast<f32>(h.z) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
+    let variance = mix(spatial, own, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0)) / length;
 #else
-        variance = spatial;
-#endif
-    }
-#ifdef VARIANCE_OF_MEAN
-    variance /= length;
+    let variance = spatial;
 #endif
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback, pixel, 0).xy);
@@ -101,20 +81,4 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let color = unpack_rgb(h.xy);
 #endif
     textureStore(color_out, pixel, pack_tap(color, sqrt(variance), g));
-#ifdef PREFILTER
-    var sum = 0.0;
-    weights = 0.0;
-    let smoothed = select(0, 9, length < SMOOTHED);
-    for (var i = 0; i < smoothed; i++) {
-        let offset = vec2(i % 3, i / 3) - 1;
-        let tap = pixel + offset;
-        let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
-        let tent = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-        let there = tent * weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
-        let w = select(0.0, there, inside(tap));
-        sum += w * mean_luminance(textureLoad(history, clamped, 0));
-        weights += w;
-    }
-    textureStore(luminance_out, pixel, vec4(sum / max(weights, 1e-6)));
-#endif
 }

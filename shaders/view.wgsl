@@ -44,6 +44,10 @@
 @group(0) @binding(9) var history: texture_2d<u32>;
 #endif
 #endif
+#if VIEW == 13
+// Rays.
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+#endif
 #if VIEW == 12
 // Not finite.
 @group(0) @binding(1) var color: texture_2d<u32>;
@@ -129,6 +133,9 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z);
     return vec3(select(1.0, 0.0, ok));
 #endif
+#if VIEW == 13
+    return vec3(textureLoad(albedo, pixel, 0).w);
+#endif
 }
 
 #ifdef TARGET_PICTURE
@@ -192,6 +199,9 @@ fn picture(v: vec3<f32>) -> vec3<f32> {
 #endif
 #if VIEW == 12
     return vec3(v.x, 0.0, 0.0);
+#endif
+#if VIEW == 13
+    return ramp(v.x / show.range);
 #endif
 }
 #endif

@@ -8,6 +8,7 @@ use crate::gpu::textures::{Textures, strata};
 use crate::gpu::timing::{FrameTimes, Timing};
 use crate::passes::{self, Pass};
 use crate::plan::{Feature, Grid, Plan, Slot, Step};
+#[cfg(feature = "path-tracer")]
 use crate::scene::GpuScene;
 use crate::settings::{Mode, Settings};
 use crate::{Error, View, ViewOptions};
@@ -254,7 +255,9 @@ impl Denoiser {
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         for step in &plan.steps {
             let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
-            let resources = Resources { scene: Some(scene), uniform: &uniform, target, show: None };
+            let scene_resource = |name: &str| scene.resource(name);
+            let resources =
+                Resources { scene: &scene_resource, stack: scene.stack(), uniform: &uniform, target, show: None };
             self.dispatch(device, encoder, step, &resources, timestamps)?;
             after(step.pass, encoder);
         }
@@ -292,7 +295,7 @@ impl Denoiser {
                 contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
                 usage: BufferUsages::UNIFORM,
             });
-            let resources = Resources { scene: None, uniform: &last.uniform, target, show: Some(&show) };
+            let resources = Resources { scene: &|_| None, stack: 0, uniform: &last.uniform, target, show: Some(&show) };
             self.dispatch(device, encoder, &step, &resources, None)
         });
         self.last = Some(last);
@@ -341,15 +344,15 @@ impl Denoiser {
         Ok(())
     }
 
-    fn dispatch(
-        &self,
+    fn dispatch<'a>(
+        &'a self,
         device: &Device,
         encoder: &mut CommandEncoder,
         step: &Step,
-        resources: &Resources<'_>,
+        resources: &Resources<'a>,
         timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) -> Result<(), Error> {
-        let permutation = Self::permutation(step, resources.scene.map_or(4, GpuScene::stack));
+        let permutation = Self::permutation(step, resources.stack);
         let missing = |name: String| Error::Shader {
             shader: step.pass.name(),
             features: format!("{:?}", step.features),
@@ -392,13 +395,15 @@ impl Denoiser {
                 Slot::Target => Some(BindingResource::TextureView(given.target)),
             };
         }
-        given.scene.and_then(|s| s.resource(name))
+        (given.scene)(name)
     }
 }
 
 /// What a dispatch uses that is not the denoiser's own.
 struct Resources<'a> {
-    scene: Option<&'a GpuScene>,
+    scene: &'a dyn Fn(&str) -> Option<BindingResource<'a>>,
+    /// Slots of the traversal's stack.
+    stack: u32,
     uniform: &'a Buffer,
     target: &'a TextureView,
     show: Option<&'a Buffer>,

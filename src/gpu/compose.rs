@@ -71,12 +71,8 @@ impl Shaders {
             features.iter().map(|f| (f.define(), ShaderDefValue::Bool(true))).collect();
         defs.insert("STACK_SIZE".into(), ShaderDefValue::UInt(stack));
         defs.insert("VIEW".into(), ShaderDefValue::UInt(view));
-        let descriptor = NagaModuleDescriptor {
-            source,
-            file_path: pass.name(),
-            shader_defs: defs,
-            ..Default::default()
-        };
+        let descriptor =
+            NagaModuleDescriptor { source, file_path: pass.name(), shader_defs: defs, ..Default::default() };
         self.0.make_naga_module(descriptor).map_err(|e| Error::Shader {
             shader: pass.name(),
             features: format!("{features:?}"),

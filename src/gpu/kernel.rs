@@ -105,7 +105,11 @@ impl Kernel {
                             .ok_or_else(|| name.clone())
                     })
                     .collect::<Result<Vec<_>, _>>()?;
-                Ok(device.create_bind_group(&BindGroupDescriptor { label: Some(&self.label), layout, entries: &entries }))
+                Ok(device.create_bind_group(&BindGroupDescriptor {
+                    label: Some(&self.label),
+                    layout,
+                    entries: &entries,
+                }))
             })
             .collect()
     }

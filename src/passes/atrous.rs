@@ -5,8 +5,8 @@ use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
 const FEATURES: &[Feature] = &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit];
 
-/// Only the first iteration smooths the variance, compares smoothed luminances and feeds the history.
-const FIRST: &[Feature] = &[Feature::FirstIteration, Feature::Prefilter, Feature::Feedback];
+/// Only the first iteration smooths the variance and feeds the history.
+const FIRST: &[Feature] = &[Feature::FirstIteration, Feature::Feedback];
 
 pub(crate) fn step(features: Features, iteration: u32) -> Step {
     let first: &[Feature] = if iteration == 0 { FIRST } else { &[] };
@@ -21,7 +21,6 @@ pub(crate) fn step(features: Features, iteration: u32) -> Step {
             features,
             [
                 ("color", Slot::Now(Image::Color(from)), &[]),
-                ("smoothed", Slot::Now(Image::Luminance), &[Feature::Prefilter]),
                 ("color_out", Slot::Now(Image::Color(1 - from)), &[]),
                 ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),
             ],

@@ -157,7 +157,8 @@ mod tests {
                 if child.low == FAR {
                     assert!(child.reference & LEAF != 0, "a ray that gets here must not go round in circles");
                 } else if child.reference & LEAF != 0 {
-                    let (first, count) = (child.reference & ((1 << COUNT_SHIFT) - 1), child.reference >> COUNT_SHIFT & 15);
+                    let (first, count) =
+                        (child.reference & ((1 << COUNT_SHIFT) - 1), child.reference >> COUNT_SHIFT & 15);
                     for row in first..first + count {
                         let triangle = tree.order[(row - first_row) as usize] as usize;
                         assert!(!std::mem::replace(&mut seen[triangle], true));

@@ -142,11 +142,7 @@ impl Geometry {
                 number = emitters.len() as u32;
             }
             let [a, b, c] = face.corners;
-            self.rows.push([
-                texel(a, material as u32),
-                texel(b, number),
-                texel(c, 0),
-            ]);
+            self.rows.push([texel(a, material as u32), texel(b, number), texel(c, 0)]);
             self.add_attributes(&scene.meshes[face.mesh], &face);
         }
         self.nodes.extend(nodes);
@@ -189,7 +185,12 @@ fn is_emitter(material: &Material) -> bool {
 pub(super) fn traits(scene: &Scene, layout: Layout) -> Traits {
     let used = || {
         let placed: Vec<usize> = scene.nodes.iter().flat_map(|n| n.meshes.iter().copied()).collect();
-        scene.meshes.iter().enumerate().filter(move |(i, _)| placed.contains(i)).map(|(_, m)| &scene.materials[m.material])
+        scene
+            .meshes
+            .iter()
+            .enumerate()
+            .filter(move |(i, _)| placed.contains(i))
+            .map(|(_, m)| &scene.materials[m.material])
     };
     let textures = |m: &Material| {
         m.base_color_texture.is_some() || m.metallic_roughness_texture.is_some() || m.emissive_texture.is_some()

@@ -163,9 +163,11 @@ impl GpuScene {
                     let [a, b, c] = face.corners.map(|p| placement.transform_point3(p));
                     let area = 0.5 * f64::from((b - a).cross(c - a).length());
                     powers.push(area * PI * lights::luminance(scene.materials[material].emissive));
-                    let emitter = emitters
-                        .entry((instance, material))
-                        .or_insert_with(|| Emitter { node, material, ..Default::default() });
+                    let emitter = emitters.entry((instance, material)).or_insert_with(|| Emitter {
+                        node,
+                        material,
+                        ..Default::default()
+                    });
                     emitter.add(face.corners, face.area_normal());
                 }
                 instances.push(Instance {
@@ -179,7 +181,8 @@ impl GpuScene {
                 next_id += group.faces.len() as u32;
             }
         }
-        let radius = scene.bounds(&pose).map_or(1.0, |[low, high]| f64::from(Vec3::from(low).distance(high.into())) / 2.0);
+        let radius =
+            scene.bounds(&pose).map_or(1.0, |[low, high]| f64::from(Vec3::from(low).distance(high.into())) / 2.0);
         let first_punctual = light_table.len();
         let mut punctual = Vec::new();
         for (node, description) in scene.nodes.iter().enumerate() {
@@ -292,15 +295,9 @@ impl GpuScene {
     ///
     /// # Errors
     /// One that names the element of the pose that does not belong to this scene or is not finite; nothing has changed then.
-    pub fn update(
-        &mut self,
-        device: &Device,
-        encoder: &mut CommandEncoder,
-        pose: &Pose,
-    ) -> Result<(), SceneError> {
-        let wrong = |element: String, reason: &str| {
-            Err(SceneError { file: "pose".into(), element, reason: reason.into() })
-        };
+    pub fn update(&mut self, device: &Device, encoder: &mut CommandEncoder, pose: &Pose) -> Result<(), SceneError> {
+        let wrong =
+            |element: String, reason: &str| Err(SceneError { file: "pose".into(), element, reason: reason.into() });
         let lengths = |p: &Pose| [p.world.len(), p.emission.len(), p.intensity.len()];
         if lengths(pose) != lengths(&self.pose) {
             return wrong("lengths".into(), "differ from the scene's: make it with `Scene::pose` of the same scene");
@@ -380,9 +377,8 @@ impl GpuScene {
         if !self.traits.instanced {
             return (Vec::new(), 0);
         }
-        let place = |pose: &Pose, i: &Instance| {
-            i.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
-        };
+        let place =
+            |pose: &Pose, i: &Instance| i.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
         let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(place(&self.pose, i), i.bounds)).collect();
         let top = bvh::over_instances(&boxes);
         let mut texels = folded::texels(&top.nodes).to_vec();
@@ -394,12 +390,7 @@ impl GpuScene {
             texels.extend(rows(now));
             texels.extend(rows(inverse(now)));
             texels.extend(rows(place(before, instance)));
-            texels.push([
-                instance.root,
-                instance.first_id,
-                instance.first_light,
-                instance.first_row << 1 | mirrored,
-            ]);
+            texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
         }
         (texels, top.depth)
     }

@@ -67,7 +67,6 @@ fn filters() -> Vec<FilterSettings> {
             stops: if on(4) { Stops::Classic } else { Stops::NoiseSubtracted },
             kernel: if on(5) { crate::Kernel::Full } else { crate::Kernel::Diamond },
             local_linear_fit: on(6),
-            luminance_prefilter: on(7),
             iterations: if on(8) { 5 } else { 0 },
             gradient_iterations: if on(9) { 3 } else { 0 },
             ..Default::default()
