@@ -14,8 +14,8 @@ Renders a path-traced scene, denoises it with A-SVGF and writes pictures.
 
 Usage: cargo run --release --example render -- [SCENE] [OPTIONS]
 
-Without any argument: 32 frames of the built-in scene `cornell`, and a comparison
-of noisy, constant-alpha, adaptive-alpha and converged pictures.
+Without any argument: frames 30 to 61 of the built-in scene `cornell`, and a comparison
+(--compare) of the last one, just after the lamp came back on.
 
 Scene
   SCENE                 a .gltf, .glb or .obj file, or a built-in scene: cornell, pillars
@@ -171,7 +171,11 @@ impl Default for Options {
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let mut options = Options { compare: arguments.is_empty(), ..Default::default() };
+    let mut options = Options::default();
+    if arguments.is_empty() {
+        // The lamp of the built-in scenes comes back on in frame 60: the last frame but one.
+        options = Options { compare: true, start_frame: 30, ..options };
+    }
     let mut filter = Filter::default();
     let mut source = None;
     let mut parser = lexopt::Parser::from_args(arguments);

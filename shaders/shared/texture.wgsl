@@ -4,8 +4,8 @@
 
 // Images lie in one storage buffer, as no GPU is sure to have arrays of differently sized textures.
 
-fn texture_coordinates(row: u32, barycentrics: vec2<f32>, set: u32) -> vec2<f32> {
-    let first = row * scene.attribute_stride + select(scene.uv_first, scene.uv_second, set != 0u);
+fn texture_coordinates(row: u32, barycentrics: vec2<f32>, uv_set: u32) -> vec2<f32> {
+    let first = row * scene.attribute_stride + select(scene.uv_first, scene.uv_second, uv_set != 0u);
     let a = vec2(bitcast<f32>(attributes[first]), bitcast<f32>(attributes[first + 1u]));
     let b = vec2(bitcast<f32>(attributes[first + 2u]), bitcast<f32>(attributes[first + 3u]));
     let c = vec2(bitcast<f32>(attributes[first + 4u]), bitcast<f32>(attributes[first + 5u]));
