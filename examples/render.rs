@@ -61,7 +61,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let stage = Stage::load(options)?;
     std::fs::create_dir_all(&options.out).map_err(|e| format!("--out {}: {e}", options.out.display()))?;
     let gpu = Gpu::new()?;
-    let mut scene = GpuScene::new(&gpu.device, &stage.scene)?;
+    let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &stage.scene)?;
     let mut film = Film::new(&gpu, options.size, options.settings.clone())?;
     // The other kind of α, with the same noise.
     let mut other = options.compare.then(|| Film::new(&gpu, options.size, other(&options.settings))).transpose()?;
@@ -74,7 +74,9 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     for frame in options.start_frame..=last {
         bar.set_message(format!("frame {frame} of {}…{last}", options.start_frame));
         let pose = stage.pose(frame);
-        scene.update(&gpu.device, &pose)?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        scene.update(&gpu.device, &mut encoder, &pose)?;
+        gpu.queue.submit([encoder.finish()]);
         camera = stage.camera(&pose, frame);
         times.push(film.render(&scene, camera, frame).map_err(|e| blame(e, &options.viewpoint))?);
         bar.inc(options.settings.tracer.samples.into());

@@ -1,29 +1,24 @@
 // One iteration of the edge-stopping à-trous wavelet filter (Dammertz et al. 2010) with variance-guided luminance weights
 // (Schied et al. 2017): l̂(p) = Σ h·w·l(q) / Σ h·w over taps `stride` pixels apart.
 //
-// Taps are written out one by one: as a loop they cost 40 % more on a software adapter.
+// Taps are written out one by one and without branches: on a software adapter a loop costs 40 % more, and a branch is
+// executed either way.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb}
+#import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb, pack_tap, tap_color, tap_variance}
 #import asvgf::edge_stop::{Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var<uniform> stride: i32;
-@group(0) @binding(2) var guide: texture_2d<u32>;
-// Demodulated radiance, variance of its luminance.
-@group(0) @binding(3) var color: texture_2d<f32>;
-#ifdef PREFILTER
-// The luminance to compare, instead of that of `color`.
-@group(0) @binding(4) var smoothed: texture_2d<f32>;
-#endif
-@group(0) @binding(5) var color_out: texture_storage_2d<rgba32float, write>;
+// Demodulated radiance, deviation of its luminance, normal and depth.
+@group(0) @binding(3) var color: texture_2d<u32>;
+@group(0) @binding(5) var color_out: texture_storage_2d<rgba32uint, write>;
 #ifdef FEEDBACK
 // The next frame's history of the colour.
 @group(0) @binding(6) var feedback_out: texture_storage_2d<rg32uint, write>;
 #endif
 
 struct Center {
-    pixel: vec2<i32>,
     // The plane's slopes over the tolerated distance.
     plane: Plane,
     // Normal over 511, to match `unpack_normal_511`.
@@ -47,21 +42,19 @@ struct Sums {
 #endif
 }
 
-fn add_tap(sums: ptr<function, Sums>, c: Center, offset: vec2<i32>, kernel: f32) {
-    let tap = c.pixel + offset * stride;
-    if !inside(tap) {
-        return;
-    }
-    let g = textureLoad(guide, tap, 0).xy;
-    let depth = bitcast<f32>(g.y);
-    let sample = textureLoad(color, tap, 0);
-#ifdef PREFILTER
-    let l = textureLoad(smoothed, tap, 0).x;
-#else
-    let l = luminance(sample.xyz);
-#endif
-    let cosine = dot(c.normal, unpack_normal_511(g.x));
-    let difference = l - c.own;
+// A tap's texel; all zero, which is a depth of 0 and so no surface, outside the image.
+fn load(pixel: vec2<i32>, offset: vec2<i32>) -> vec4<u32> {
+    let tap = pixel + offset * stride;
+    let texel = textureLoad(color, clamp(tap, vec2(0), vec2<i32>(frame.size) - 1), 0);
+    return select(vec4(0u), texel, inside(tap));
+}
+
+fn add_tap(sums: ptr<function, Sums>, c: Center, texel: vec4<u32>, offset: vec2<i32>, kernel: f32) {
+    let depth = bitcast<f32>(texel.w);
+    let sample = tap_color(texel);
+    let sample_variance = tap_variance(texel);
+    let cosine = dot(c.normal, unpack_normal_511(texel.z));
+    let difference = luminance(sample) - c.own;
 #ifdef CLASSIC_STOPS
     // The talk's three stops. ∇z is that of the tangent plane, exact where differences of neighbours are not; the ε of
     // 0.1 % of the depth is what a surface seen face on (∇z = 0) is allowed.
@@ -69,25 +62,24 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, offset: vec2<i32>, kernel: f32)
     let exponent = abs(depth - c.plane.depth) / slope + abs(difference) * c.variance;
     let w = kernel * pow(clamp(cosine, 0.0, 1.0), frame.sigma_normal) * exp(-exponent);
 #else
-    let distance = plane_distance(c.plane, vec2<f32>(offset), depth);
     // Squared difference less the noise that both ends are known to have: what is left is signal.
-    let noise = c.variance + sample.w;
-    let excess = difference * difference - (c.variance + min(c.variance, sample.w));
-    let exponent = distance + frame.sigma_normal * (1.0 - cosine)
+    let noise = c.variance + sample_variance;
+    let excess = difference * difference - (c.variance + min(c.variance, sample_variance));
+    let exponent = plane_distance(c.plane, vec2<f32>(offset), depth) + frame.sigma_normal * (1.0 - cosine)
         + max(excess, 0.0) / (frame.sigma_luminance * noise + 1e-37);
     let w = kernel * exp(-exponent);
 #endif
     let weight = select(0.0, w, depth > 0.0);
-    (*sums).color += weight * sample.xyz;
+    (*sums).color += weight * sample;
     (*sums).weight += weight;
     // Var(Σw·x / Σw) = Σw²·Var(x) / (Σw)² for independent x.
-    (*sums).variance += weight * weight * sample.w;
+    (*sums).variance += weight * weight * sample_variance;
 #ifdef LOCAL_LINEAR_FIT
     let xy = vec2<f32>(offset);
     (*sums).offset += weight * xy;
     (*sums).spread += weight * vec3(xy.x * xy.x, xy.x * xy.y, xy.y * xy.y);
-    (*sums).color_x += (weight * xy.x) * sample.xyz;
-    (*sums).color_y += (weight * xy.y) * sample.xyz;
+    (*sums).color_x += (weight * xy.x) * sample;
+    (*sums).color_y += (weight * xy.y) * sample;
 #endif
 }
 
@@ -112,103 +104,102 @@ fn fit(sums: Sums) -> vec3<f32> {
 }
 #endif
 
-// 3×3 Gaussian of the variance: one pixel's variance is itself a noisy estimate.
-fn smooth_variance(pixel: vec2<i32>, own: f32) -> f32 {
-    var sum = 4.0 * own;
-    var weights = 4.0;
-    add_variance(&sum, &weights, pixel + vec2(-1, -1), 1.0);
-    add_variance(&sum, &weights, pixel + vec2(0, -1), 2.0);
-    add_variance(&sum, &weights, pixel + vec2(1, -1), 1.0);
-    add_variance(&sum, &weights, pixel + vec2(-1, 0), 2.0);
-    add_variance(&sum, &weights, pixel + vec2(1, 0), 2.0);
-    add_variance(&sum, &weights, pixel + vec2(-1, 1), 1.0);
-    add_variance(&sum, &weights, pixel + vec2(0, 1), 2.0);
-    add_variance(&sum, &weights, pixel + vec2(1, 1), 1.0);
-    return sum / weights;
-}
-
-fn add_variance(sum: ptr<function, f32>, weights: ptr<function, f32>, tap: vec2<i32>, w: f32) {
-    if inside(tap) {
-        *sum += w * textureLoad(color, tap, 0).w;
-        *weights += w;
-    }
-}
-
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
     if !inside(pixel) {
         return;
     }
-    let g = textureLoad(guide, pixel, 0).xy;
-    let depth = bitcast<f32>(g.y);
+    let own = textureLoad(color, pixel, 0);
+    let depth = bitcast<f32>(own.w);
     if depth <= 0.0 {
-        textureStore(color_out, pixel, vec4(0.0));
+        textureStore(color_out, pixel, vec4(0u));
 #ifdef FEEDBACK
         textureStore(feedback_out, pixel, vec4(0u));
 #endif
         return;
     }
-    let own = textureLoad(color, pixel, 0);
-#ifdef PREFILTER
-    let own_luminance = textureLoad(smoothed, pixel, 0).x;
+    let west = load(pixel, vec2(-1, 0));
+    let east = load(pixel, vec2(1, 0));
+    let north = load(pixel, vec2(0, -1));
+    let south = load(pixel, vec2(0, 1));
+    let north_west = load(pixel, vec2(-1, -1));
+    let north_east = load(pixel, vec2(1, -1));
+    let south_west = load(pixel, vec2(-1, 1));
+    let south_east = load(pixel, vec2(1, 1));
+    let own_color = tap_color(own);
+    let own_variance = tap_variance(own);
+#ifdef FIRST_ITERATION
+    // 3×3 Gaussian: one pixel's variance is itself a noisy estimate. Later iterations have averaged it already.
+    let edges = vec4(
+        tap_variance(west), tap_variance(east), tap_variance(north), tap_variance(south));
+    let corners = vec4(
+        tap_variance(north_west), tap_variance(north_east), tap_variance(south_west), tap_variance(south_east));
+    let edges_exist = vec4<f32>(vec4(west.w, east.w, north.w, south.w) != vec4(0u));
+    let corners_exist = vec4<f32>(vec4(north_west.w, north_east.w, south_west.w, south_east.w) != vec4(0u));
+    let variance = (4.0 * own_variance + 2.0 * dot(edges, edges_exist) + dot(corners, corners_exist))
+        / (4.0 + 2.0 * dot(edges_exist, vec4(1.0)) + dot(corners_exist, vec4(1.0)));
 #else
-    let own_luminance = luminance(own.xyz);
+    let variance = own_variance;
 #endif
-    let normal = unpack_normal(g.x);
+    let own_luminance = luminance(own_color);
+    let normal = unpack_normal(own.z);
     var plane = tangent_plane(vec2<f32>(pixel), normal, depth);
-    let variance = smooth_variance(pixel, own.w);
 #ifdef CLASSIC_STOPS
     let gradient = -depth * plane.slope.yz / select(plane.slope.x, -1e-4, abs(plane.slope.x) < 1e-4);
     let c = Center(
-        pixel, plane, normal * (1.0 / 511.0), own_luminance,
-        1.0 / (frame.sigma_luminance * sqrt(max(variance, 0.0)) + 1e-6 * own_luminance + 1e-37),
+        plane, normal * (1.0 / 511.0), own_luminance,
+        1.0 / (frame.sigma_luminance * sqrt(variance) + 1e-6 * own_luminance + 1e-37),
         gradient * f32(stride),
     );
 #else
     // Slopes per stride, in units of the tolerated distance.
     plane.slope *= vec3(1.0, vec2(f32(stride))) / (frame.sigma_depth * depth);
-    let c = Center(pixel, plane, normal * (1.0 / 511.0), own_luminance, variance, vec2(0.0));
+    let c = Center(plane, normal * (1.0 / 511.0), own_luminance, variance, vec2(0.0));
 #endif
     var sums: Sums;
-    sums.color = own.xyz;
+    sums.color = own_color;
     sums.weight = 1.0;
-    sums.variance = own.w;
+    sums.variance = own_variance;
     // The B₃ spline (1, ⅔, ⅙)², relative to its centre.
-    add_tap(&sums, c, vec2(-1, 0), 2.0 / 3.0);
-    add_tap(&sums, c, vec2(1, 0), 2.0 / 3.0);
-    add_tap(&sums, c, vec2(0, -1), 2.0 / 3.0);
-    add_tap(&sums, c, vec2(0, 1), 2.0 / 3.0);
-    add_tap(&sums, c, vec2(-1, -1), 4.0 / 9.0);
-    add_tap(&sums, c, vec2(1, -1), 4.0 / 9.0);
-    add_tap(&sums, c, vec2(-1, 1), 4.0 / 9.0);
-    add_tap(&sums, c, vec2(1, 1), 4.0 / 9.0);
-    add_tap(&sums, c, vec2(-2, 0), 1.0 / 6.0);
-    add_tap(&sums, c, vec2(2, 0), 1.0 / 6.0);
-    add_tap(&sums, c, vec2(0, -2), 1.0 / 6.0);
-    add_tap(&sums, c, vec2(0, 2), 1.0 / 6.0);
+    add_tap(&sums, c, west, vec2(-1, 0), 2.0 / 3.0);
+    add_tap(&sums, c, east, vec2(1, 0), 2.0 / 3.0);
+    add_tap(&sums, c, north, vec2(0, -1), 2.0 / 3.0);
+    add_tap(&sums, c, south, vec2(0, 1), 2.0 / 3.0);
+    add_tap(&sums, c, north_west, vec2(-1, -1), 4.0 / 9.0);
+    add_tap(&sums, c, north_east, vec2(1, -1), 4.0 / 9.0);
+    add_tap(&sums, c, south_west, vec2(-1, 1), 4.0 / 9.0);
+    add_tap(&sums, c, south_east, vec2(1, 1), 4.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(-2, 0), 1.0 / 6.0);
+    add_far_tap(&sums, c, pixel, vec2(2, 0), 1.0 / 6.0);
+    add_far_tap(&sums, c, pixel, vec2(0, -2), 1.0 / 6.0);
+    add_far_tap(&sums, c, pixel, vec2(0, 2), 1.0 / 6.0);
 #ifdef FULL_KERNEL
     // The diamond of 13 taps above, completed to 5×5.
-    add_tap(&sums, c, vec2(-2, -1), 1.0 / 9.0);
-    add_tap(&sums, c, vec2(-2, 1), 1.0 / 9.0);
-    add_tap(&sums, c, vec2(2, -1), 1.0 / 9.0);
-    add_tap(&sums, c, vec2(2, 1), 1.0 / 9.0);
-    add_tap(&sums, c, vec2(-1, -2), 1.0 / 9.0);
-    add_tap(&sums, c, vec2(1, -2), 1.0 / 9.0);
-    add_tap(&sums, c, vec2(-1, 2), 1.0 / 9.0);
-    add_tap(&sums, c, vec2(1, 2), 1.0 / 9.0);
-    add_tap(&sums, c, vec2(-2, -2), 1.0 / 36.0);
-    add_tap(&sums, c, vec2(2, -2), 1.0 / 36.0);
-    add_tap(&sums, c, vec2(-2, 2), 1.0 / 36.0);
-    add_tap(&sums, c, vec2(2, 2), 1.0 / 36.0);
+    add_far_tap(&sums, c, pixel, vec2(-2, -1), 1.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(-2, 1), 1.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(2, -1), 1.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(2, 1), 1.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(-1, -2), 1.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(1, -2), 1.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(-1, 2), 1.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(1, 2), 1.0 / 9.0);
+    add_far_tap(&sums, c, pixel, vec2(-2, -2), 1.0 / 36.0);
+    add_far_tap(&sums, c, pixel, vec2(2, -2), 1.0 / 36.0);
+    add_far_tap(&sums, c, pixel, vec2(-2, 2), 1.0 / 36.0);
+    add_far_tap(&sums, c, pixel, vec2(2, 2), 1.0 / 36.0);
 #endif
 #ifdef LOCAL_LINEAR_FIT
     let filtered = fit(sums);
 #else
     let filtered = sums.color / sums.weight;
 #endif
-    textureStore(color_out, pixel, vec4(filtered, sums.variance / (sums.weight * sums.weight)));
+    textureStore(color_out, pixel, pack_tap(filtered, sqrt(sums.variance) / sums.weight, own.zw));
 #ifdef FEEDBACK
     textureStore(feedback_out, pixel, vec4(pack_rgb(filtered), 0u, 0u));
 #endif
+}
+
+fn add_far_tap(sums: ptr<function, Sums>, c: Center, pixel: vec2<i32>, offset: vec2<i32>, kernel: f32) {
+    add_tap(sums, c, load(pixel, offset), offset, kernel);
 }

@@ -23,15 +23,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             for (var x = -1; x <= 1; x++) {
                 let offset = vec2(x, y);
                 let tap = stratum + offset * stride;
-                if !in_grid(tap) {
-                    continue;
-                }
-                let other = textureLoad(samples, tap, 0);
-                if other.x == 0u {
-                    continue;
-                }
-                let w = tap_weight(center, site(other, tap), offset, stride);
-                sum += w * textureLoad(gradient, tap, 0).xy;
+                let clamped = clamp(tap, vec2(0), vec2<i32>(frame.strata) - 1);
+                let other = textureLoad(samples, clamped, 0);
+                let there = tap_weight(center, site(other, clamped), offset, stride);
+                let w = select(0.0, there, in_grid(tap) && other.x != 0u);
+                sum += w * textureLoad(gradient, clamped, 0).xy;
                 weights += w;
             }
         }

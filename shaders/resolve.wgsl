@@ -1,12 +1,12 @@
 // Puts the picture together again: filtered radiance times albedo, plus what the surface or the sky emits towards the camera.
 
 #import asvgf::frame::{frame, inside}
-#import asvgf::packing::unpack_rgb
+#import asvgf::packing::{unpack_rgb, tap_color}
 
 #ifdef UNFILTERED
 @group(0) @binding(1) var radiance: texture_2d<u32>;
 #else
-@group(0) @binding(1) var color: texture_2d<f32>;
+@group(0) @binding(1) var color: texture_2d<u32>;
 #endif
 @group(0) @binding(2) var albedo: texture_2d<f32>;
 #ifdef DIRECT_EMISSION
@@ -35,7 +35,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef UNFILTERED
     let reflected = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
 #else
-    let reflected = textureLoad(color, pixel, 0).xyz;
+    let reflected = tap_color(textureLoad(color, pixel, 0));
 #endif
     var result = reflected * textureLoad(albedo, pixel, 0).xyz;
 #ifdef DIRECT_EMISSION

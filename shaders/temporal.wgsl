@@ -5,7 +5,7 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_length_lambda, unpack_length}
+#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_tap, pack_length_lambda, unpack_length}
 #import asvgf::reproject::{Origin, origin_of, same_surface}
 #ifdef GRADIENT
 #import asvgf::frame::{world_position, sample_point}
@@ -34,11 +34,8 @@
 #endif
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
-// Colour and the variance that steers the spatial filter.
-@group(0) @binding(14) var color_out: texture_storage_2d<rgba32float, write>;
-#ifdef PREFILTER
-@group(0) @binding(15) var luminance_out: texture_storage_2d<r32float, write>;
-#endif
+// What the spatial filter reads.
+@group(0) @binding(14) var color_out: texture_storage_2d<rgba32uint, write>;
 
 struct History {
     color: vec3<f32>,
@@ -58,18 +55,16 @@ struct Taps {
     weight: f32,
 }
 
-fn add_tap(sum: ptr<function, Taps>, origin: Origin, tap: vec2<i32>, weight: f32) {
-    if weight < 1e-4 || !inside(tap) {
-        return;
-    }
+fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear: f32) {
+    let tap = clamp(place, vec2(0), vec2<i32>(frame.size) - 1);
 #ifdef OBJECTS
     let there = textureLoad(object_previous, tap, 0).x;
 #else
     let there = 0u;
 #endif
-    if !same_surface(origin, tap, textureLoad(guide_previous, tap, 0).xy, there) {
-        return;
-    }
+    let valid = bilinear >= 1e-4 && inside(place)
+        && same_surface(origin, tap, textureLoad(guide_previous, tap, 0).xy, there);
+    let weight = select(0.0, bilinear, valid);
     let h = textureLoad(history_previous, tap, 0);
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback_previous, tap, 0).xy);
@@ -96,16 +91,16 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin) -> History {
     add_tap(&sum, origin, base + vec2(1, 0), f.x * (1.0 - f.y));
     add_tap(&sum, origin, base + vec2(0, 1), (1.0 - f.x) * f.y);
     add_tap(&sum, origin, base + vec2(1, 1), f.x * f.y);
-    if sum.weight <= 0.01 {
-        // Nothing of the surface under the 2×2 taps: look one pixel farther.
+    // Where nothing of the surface lies under the 2×2 taps, look one pixel farther. The loop's length depends on that, as a
+    // software adapter executes a branch either way, but not a loop.
+    let searched = select(0, 16, sum.weight <= 0.01);
+    if searched > 0 {
         sum = Taps(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0.0);
-        for (var y = -1; y <= 2; y++) {
-            for (var x = -1; x <= 2; x++) {
-                let tap = base + vec2(x, y);
-                let d = vec2<f32>(tap) - point;
-                add_tap(&sum, origin, tap, exp(-dot(d, d)));
-            }
-        }
+    }
+    for (var i = 0; i < searched; i++) {
+        let tap = base + vec2(i % 4, i / 4) - 1;
+        let d = vec2<f32>(tap) - point;
+        add_tap(&sum, origin, tap, exp(-dot(d, d)));
     }
     if sum.weight <= 0.01 {
         return History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
@@ -123,6 +118,29 @@ struct Change {
     lambda: f32,
 }
 
+fn add_stratum(
+    sum: ptr<function, Change>,
+    stratum: vec2<i32>,
+    grid: vec2<f32>,
+    here: vec3<f32>,
+    normal: vec3<f32>,
+    depth: f32,
+) -> f32 {
+    let clamped = clamp(stratum, vec2(0), vec2<i32>(frame.strata) - 1);
+    let record = textureLoad(samples, clamped, 0);
+    let s = site(record, clamped);
+    let exponent = geometric_exponent(normal, s.position - here, s.normal, PLANE * depth);
+    let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
+    let valid = in_grid(stratum) && record.x != 0u && exponent <= CUT;
+    let w = select(0.0, tent.x * tent.y * exp(-exponent), valid);
+    let g = textureLoad(gradient, clamped, 0).xy;
+    (*sum).lambda += w * clamp(g.x / max(g.y, 1e-30), 0.0, 1.0);
+#ifdef HISTORY_RATIO
+    (*sum).ratio += w * (textureLoad(ratio, clamped, 0) - 1.0);
+#endif
+    return w;
+}
+
 // Bilinear interpolation of the strata around a pixel, on the same surface; no change where there is none.
 fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32) -> Change {
     let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
@@ -130,33 +148,13 @@ fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32) -> Change {
     let base = vec2<i32>(floor(grid));
     var sum = Change(vec4(0.0), 0.0);
     var weights = 0.0;
-    // The 2×2 nearest strata, else the 4×4.
-    for (var ring = 0; ring < 2 && weights <= 1e-4; ring++) {
-        for (var y = -ring; y <= 1 + ring; y++) {
-            for (var x = -ring; x <= 1 + ring; x++) {
-                let stratum = base + vec2(x, y);
-                if !in_grid(stratum) {
-                    continue;
-                }
-                let record = textureLoad(samples, stratum, 0);
-                if record.x == 0u {
-                    continue;
-                }
-                let s = site(record, stratum);
-                let exponent = geometric_exponent(normal, s.position - here, s.normal, PLANE * depth);
-                if exponent > CUT {
-                    continue;
-                }
-                let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
-                let w = tent.x * tent.y * exp(-exponent);
-                let g = textureLoad(gradient, stratum, 0).xy;
-                sum.lambda += w * clamp(g.x / max(g.y, 1e-30), 0.0, 1.0);
-#ifdef HISTORY_RATIO
-                sum.ratio += w * (textureLoad(ratio, stratum, 0) - 1.0);
-#endif
-                weights += w;
-            }
-        }
+    for (var i = 0; i < 4; i++) {
+        weights += add_stratum(&sum, base + vec2(i & 1, i >> 1u), grid, here, normal, depth);
+    }
+    // Where none of the nearest four is on the surface, the 4×4; a loop of length 0 elsewhere, see `reproject`.
+    let searched = select(0, 16, weights <= 1e-4);
+    for (var i = 0; i < searched; i++) {
+        weights += add_stratum(&sum, base + vec2(i & 3, i >> 2u) - 1, grid, here, normal, depth);
     }
     let scale = select(0.0, 1.0 / weights, weights > 0.0);
     // Interpolated as differences from 1, so that a ratio of exactly 1 stays so; λ may not exceed 1 by an ulp, as
@@ -175,10 +173,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let depth = bitcast<f32>(g.y);
     if depth <= 0.0 {
         textureStore(history_out, pixel, vec4(0u));
-        textureStore(color_out, pixel, vec4(0.0));
-#ifdef PREFILTER
-        textureStore(luminance_out, pixel, vec4(0.0));
-#endif
+        textureStore(color_out, pixel, vec4(0u));
 #ifdef FEEDBACK
         textureStore(feedback_out, pixel, vec4(0u));
 #endif
@@ -256,8 +251,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     // What is filtered is what was stored.
     let stored = unpack_rgb(packed);
-    textureStore(color_out, pixel, vec4(stored, guiding));
-#ifdef PREFILTER
-    textureStore(luminance_out, pixel, vec4(luminance(stored)));
-#endif
+    textureStore(color_out, pixel, pack_tap(stored, sqrt(guiding), g));
 }

@@ -13,7 +13,7 @@
 #ifdef LIGHTS
 #import asvgf::light::sample_light
 #endif
-#import asvgf::scene::{NO_TRIANGLE, triangles, instance_numbers, scene}
+#import asvgf::scene::{NO_TRIANGLE, triangle_word, instance_numbers, scene}
 #import asvgf::color::{luminance, sanitize}
 #import asvgf::packing::pack_rgb
 #ifdef RESHADE
@@ -26,10 +26,14 @@
 @group(0) @binding(3) var samples: texture_2d<u32>;
 #endif
 @group(0) @binding(4) var radiance_out: texture_storage_2d<rg32uint, write>;
+// The albedo, and how many rays the pixel cost.
 @group(0) @binding(5) var albedo_out: texture_storage_2d<rgba16float, write>;
 #ifdef DIRECT_EMISSION
 @group(0) @binding(6) var emission_out: texture_storage_2d<rg32uint, write>;
 #endif
+
+// The pixel's rays so far, the primary one included.
+var<private> rays: u32 = 1u;
 
 // The surface that a pixel saw, placed where its triangle is now, seen as it was then.
 fn visible_surface(id: u32, camera: Camera, pixel: vec2<f32>, before: bool) -> Surface {
@@ -75,6 +79,7 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
         let towards = scattering(s, light.direction);
         let arriving = towards.value * light.radiance;
         if light.density > 0.0 && max(max(arriving.x, arriving.y), arriving.z) > 0.0 {
+            rays += 1u;
             // Short of the light by one part in 10⁴, so that it does not shadow itself.
             if !occluded(Ray(origin, light.direction), light.distance * 0.9999) {
 #ifdef LIGHT_SAMPLES_ONLY
@@ -93,6 +98,7 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
             break;
         }
         throughput *= scattered.value / scattered.density;
+        rays += 1u;
         let hit = closest_hit(Ray(origin, next));
         if hit.triangle == NO_TRIANGLE {
 #ifdef ENVIRONMENT_LIGHT
@@ -113,7 +119,7 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
         s = surface_at(v, t, hit.barycentrics, next);
 #ifdef EMITTERS
 #ifndef LIGHT_SAMPLES_ONLY
-        let emitter = bitcast<u32>(triangles[hit.triangle * 3u + 1u].w);
+        let emitter = triangle_word(hit.triangle * 3u + 1u).w;
         if emitter > 0u {
 #ifdef SCATTERED_RAYS_ONLY
             let weight = 1.0;
@@ -150,7 +156,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let seen = textureLoad(visibility, pixel, 0).x;
     if seen == NO_TRIANGLE {
         textureStore(radiance_out, pixel, vec4(0u));
-        textureStore(albedo_out, pixel, vec4(0.0));
+        textureStore(albedo_out, pixel, vec4(0.0, 0.0, 0.0, 1.0));
 #ifdef DIRECT_EMISSION
         let sky = environment_radiance(normalize(direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy)))));
         textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(sky)), 0u, 0u));
@@ -159,7 +165,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var s = visible_surface(seen, frame.camera, vec2<f32>(id.xy), false);
     let albedo = demodulation(s);
-    textureStore(albedo_out, pixel, vec4(albedo, 0.0));
 #ifdef DIRECT_EMISSION
     textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(s.emission)), 0u, 0u));
 #endif
@@ -179,5 +184,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var i = 0u; i < frame.samples; i++) {
         sum += sanitize(path(s, seed_of(seed_pixel, seed_frame, i, frame.seed)));
     }
+    textureStore(albedo_out, pixel, vec4(albedo, f32(rays)));
     textureStore(radiance_out, pixel, vec4(pack_rgb(sum / (f32(frame.samples) * demodulation(s))), 0u, 0u));
 }

@@ -1,10 +1,9 @@
 // While a pixel's history is short its own variance means little: it is estimated from the neighbours instead
-// (Schied et al. 2017, §4.2), and the luminance that the first à-trous iteration compares is smoothed, so that a lucky
-// dark neighbour is not preferred to an unlucky bright one. Pixels with a longer history keep what temporal.wgsl wrote.
+// (Schied et al. 2017, §4.2). Pixels with a longer history keep what temporal.wgsl wrote.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{unpack_rgb, unpack_normal, unpack_length}
+#import asvgf::packing::{unpack_rgb, unpack_normal, unpack_length, pack_tap}
 #import asvgf::edge_stop::{Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
@@ -12,18 +11,10 @@
 #ifdef FEEDBACK
 @group(0) @binding(3) var feedback: texture_2d<u32>;
 #endif
-@group(0) @binding(4) var color_out: texture_storage_2d<rgba32float, write>;
-#ifdef PREFILTER
-@group(0) @binding(5) var luminance_out: texture_storage_2d<r32float, write>;
-#endif
+@group(0) @binding(4) var color_out: texture_storage_2d<rgba32uint, write>;
 
-// History length below which the variance is a spatial one (paper: 4), and below which the luminance is smoothed.
+// History length below which the variance is a spatial one.
 const SHORT: f32 = 4.0;
-#ifdef PREFILTER
-const SMOOTHED: f32 = 16.0;
-#else
-const SMOOTHED: f32 = 4.0;
-#endif
 
 // exp(−(distance from the plane / 2 % of the depth) − 64·(1 − n·n')), cut at 8.
 fn weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<u32>) -> f32 {
@@ -52,73 +43,42 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let h = textureLoad(history, pixel, 0);
     let length = unpack_length(h.w);
-    if length <= 0.0 || length >= SMOOTHED {
+    if length <= 0.0 || length >= SHORT {
         return;
     }
     let g = textureLoad(guide, pixel, 0).xy;
     let normal = unpack_normal(g.x);
     let plane = tangent_plane(vec2<f32>(pixel), normal, bitcast<f32>(g.y));
     let center = mean_luminance(h);
-#ifdef VARIANCE_OF_MEAN
-    var variance = bitcast<f32>(h.z) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
-#else
-    var variance = bitcast<f32>(h.z);
-#endif
-    if length < SHORT {
-        // Moments over 7×7 about the centre's mean.
-        var first = 0.0;
-        var second = 0.0;
-        var weights = 0.0;
-        for (var y = -3; y <= 3; y++) {
-            for (var x = -3; x <= 3; x++) {
-                let tap = pixel + vec2(x, y);
-                if !inside(tap) {
-                    continue;
-                }
-                let w = weight(plane, normal, vec2(x, y), textureLoad(guide, tap, 0).xy);
-                if w <= 0.0 {
-                    continue;
-                }
-                let other = textureLoad(history, tap, 0);
-                let d = mean_luminance(other) - center;
-                first += w * d;
-                second += w * (bitcast<f32>(other.z) + d * d);
-                weights += w;
-            }
-        }
-        let mean = first / max(weights, 1e-6);
-        // The fewer frames there are, the less the neighbours know either.
-        let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / length);
-#ifdef VARIANCE_OF_MEAN
-        variance = mix(spatial, variance, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0));
-#else
-        variance = spatial;
-#endif
+    // Moments over 7×7 about the centre's mean.
+    var first = 0.0;
+    var second = 0.0;
+    var weights = 0.0;
+    for (var i = 0; i < 49; i++) {
+        let offset = vec2(i % 7, i / 7) - 3;
+        let tap = pixel + offset;
+        let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
+        let there = weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
+        let w = select(0.0, there, inside(tap));
+        let other = textureLoad(history, clamped, 0);
+        let d = mean_luminance(other) - center;
+        first += w * d;
+        second += w * (bitcast<f32>(other.z) + d * d);
+        weights += w;
     }
+    let mean = first / max(weights, 1e-6);
+    // The fewer frames there are, the less the neighbours know either.
+    let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / length);
 #ifdef VARIANCE_OF_MEAN
-    variance /= length;
+    let own = bitcast<f32>(h.z) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
+    let variance = mix(spatial, own, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0)) / length;
+#else
+    let variance = spatial;
 #endif
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback, pixel, 0).xy);
 #else
     let color = unpack_rgb(h.xy);
 #endif
-    textureStore(color_out, pixel, vec4(color, variance));
-#ifdef PREFILTER
-    var sum = 0.0;
-    var weights = 0.0;
-    for (var y = -1; y <= 1; y++) {
-        for (var x = -1; x <= 1; x++) {
-            let tap = pixel + vec2(x, y);
-            if !inside(tap) {
-                continue;
-            }
-            let tent = f32((2 - abs(x)) * (2 - abs(y)));
-            let w = tent * weight(plane, normal, vec2(x, y), textureLoad(guide, tap, 0).xy);
-            sum += w * mean_luminance(textureLoad(history, tap, 0));
-            weights += w;
-        }
-    }
-    textureStore(luminance_out, pixel, vec4(sum / max(weights, 1e-6)));
-#endif
+    textureStore(color_out, pixel, pack_tap(color, sqrt(variance), g));
 }

@@ -2,12 +2,12 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::{is_finite, luminance}
-#import asvgf::packing::{unpack_rgb, unpack_normal, unpack_length, unpack_lambda}
+#import asvgf::packing::{unpack_rgb, tap_color, unpack_normal, unpack_length, unpack_lambda}
 #import asvgf::random::hash
 
 #if VIEW == 0
 // Denoised.
-@group(0) @binding(1) var color: texture_2d<f32>;
+@group(0) @binding(1) var color: texture_2d<u32>;
 #endif
 #if VIEW == 1
 // Noisy.
@@ -44,9 +44,13 @@
 @group(0) @binding(9) var history: texture_2d<u32>;
 #endif
 #endif
+#if VIEW == 13
+// Rays.
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+#endif
 #if VIEW == 12
 // Not finite.
-@group(0) @binding(1) var color: texture_2d<f32>;
+@group(0) @binding(1) var color: texture_2d<u32>;
 #endif
 
 #ifdef TARGET_PICTURE
@@ -70,7 +74,7 @@ struct Show {
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
 #if VIEW == 0
-    var c = textureLoad(color, pixel, 0).xyz * textureLoad(albedo, pixel, 0).xyz;
+    var c = tap_color(textureLoad(color, pixel, 0)) * textureLoad(albedo, pixel, 0).xyz;
 #ifdef DIRECT_EMISSION
     c += unpack_rgb(textureLoad(emission, pixel, 0).xy);
 #endif
@@ -125,9 +129,12 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(bitcast<f32>(textureLoad(history, pixel, 0).z));
 #endif
 #if VIEW == 12
-    let c = textureLoad(color, pixel, 0);
-    let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z) && is_finite(c.w);
+    let c = tap_color(textureLoad(color, pixel, 0));
+    let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z);
     return vec3(select(1.0, 0.0, ok));
+#endif
+#if VIEW == 13
+    return vec3(textureLoad(albedo, pixel, 0).w);
 #endif
 }
 
@@ -192,6 +199,9 @@ fn picture(v: vec3<f32>) -> vec3<f32> {
 #endif
 #if VIEW == 12
     return vec3(v.x, 0.0, 0.0);
+#endif
+#if VIEW == 13
+    return ramp(v.x / show.range);
 #endif
 }
 #endif

@@ -130,6 +130,14 @@ mod tests {
     }
 
     #[test]
+    #[cfg(feature = "path-tracer")]
+    fn the_camera_lies_where_the_shader_reads_it() {
+        use crate::twins::layout::{assert_layout, fields};
+        let fields = fields!(CameraUniform: eye, jitter_x, forward, jitter_y, corner, du, inverse_du, dv, inverse_dv);
+        assert_layout("Camera", fields, size_of::<CameraUniform>());
+    }
+
+    #[test]
     fn an_impossible_camera_is_refused_by_name() {
         let named = |c: Camera| match c.uniform([8, 8]) {
             Err(Error::Camera { element, .. }) => element,

@@ -8,6 +8,7 @@ use crate::gpu::textures::{Textures, strata};
 use crate::gpu::timing::{FrameTimes, Timing};
 use crate::passes::{self, Pass};
 use crate::plan::{Feature, Grid, Plan, Slot, Step};
+#[cfg(feature = "path-tracer")]
 use crate::scene::GpuScene;
 use crate::settings::{Mode, Settings};
 use crate::{Error, View, ViewOptions};
@@ -111,8 +112,11 @@ impl Denoiser {
         if !missing.is_empty() {
             return Err(Error::Feature { missing, setting: "DenoiserDescriptor::timing" });
         }
+        // A device that is strict about WebGPU reports 0 for limits of wgpu's own, whatever it can do.
+        let mut needed = required.limits;
+        needed.zero_native_only();
         let mut shortfall = None;
-        required.limits.check_limits_with_fail_fn(&device.limits(), false, |limit, needed, available| {
+        needed.check_limits_with_fail_fn(&device.limits(), false, |limit, needed, available| {
             shortfall.get_or_insert(Error::Limit { limit, needed, available });
         });
         if let Some(error) = shortfall {
@@ -206,10 +210,9 @@ impl Denoiser {
     /// # Errors
     /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
     pub fn render(&mut self, device: &Device, encoder: &mut CommandEncoder, frame: &Frame<'_>) -> Result<(), Error> {
-        encoder.push_debug_group("asvgf frame");
-        let result = self.render_stepwise(device, encoder, frame, |_, _| {});
-        encoder.pop_debug_group();
-        result
+        // No debug group around the frame, only a label on each pass: in debug builds, Mesa 22.3's drivers crash at the
+        // second group of an encoder (gfx-rs/wgpu#3377), and an encoder may hold many frames.
+        self.render_stepwise(device, encoder, frame, |_, _| {})
     }
 
     /// As [`Denoiser::render`], and calls the host after each pass has been recorded: it may put another encoder in the place
@@ -252,7 +255,9 @@ impl Denoiser {
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         for step in &plan.steps {
             let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
-            let resources = Resources { scene: Some(scene), uniform: &uniform, target, show: None };
+            let scene_resource = |name: &str| scene.resource(name);
+            let resources =
+                Resources { scene: &scene_resource, stack: scene.stack(), uniform: &uniform, target, show: None };
             self.dispatch(device, encoder, step, &resources, timestamps)?;
             after(step.pass, encoder);
         }
@@ -290,7 +295,7 @@ impl Denoiser {
                 contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
                 usage: BufferUsages::UNIFORM,
             });
-            let resources = Resources { scene: None, uniform: &last.uniform, target, show: Some(&show) };
+            let resources = Resources { scene: &|_| None, stack: 0, uniform: &last.uniform, target, show: Some(&show) };
             self.dispatch(device, encoder, &step, &resources, None)
         });
         self.last = Some(last);
@@ -339,15 +344,15 @@ impl Denoiser {
         Ok(())
     }
 
-    fn dispatch(
-        &self,
+    fn dispatch<'a>(
+        &'a self,
         device: &Device,
         encoder: &mut CommandEncoder,
         step: &Step,
-        resources: &Resources<'_>,
+        resources: &Resources<'a>,
         timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) -> Result<(), Error> {
-        let permutation = Self::permutation(step, resources.scene.map_or(4, GpuScene::stack));
+        let permutation = Self::permutation(step, resources.stack);
         let missing = |name: String| Error::Shader {
             shader: step.pass.name(),
             features: format!("{:?}", step.features),
@@ -390,13 +395,15 @@ impl Denoiser {
                 Slot::Target => Some(BindingResource::TextureView(given.target)),
             };
         }
-        given.scene.and_then(|s| s.buffer(name)).map(Buffer::as_entire_binding)
+        (given.scene)(name)
     }
 }
 
 /// What a dispatch uses that is not the denoiser's own.
 struct Resources<'a> {
-    scene: Option<&'a GpuScene>,
+    scene: &'a dyn Fn(&str) -> Option<BindingResource<'a>>,
+    /// Slots of the traversal's stack.
+    stack: u32,
     uniform: &'a Buffer,
     target: &'a TextureView,
     show: Option<&'a Buffer>,

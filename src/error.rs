@@ -45,7 +45,9 @@ pub enum Error {
         accepted: &'static str,
     },
     /// A view of the host's has another size than the denoiser.
-    #[error("the view `{view}` is {found:?} pixels, the denoiser {expected:?}: call `resize` or pass a view of that size")]
+    #[error(
+        "the view `{view}` is {found:?} pixels, the denoiser {expected:?}: call `resize` or pass a view of that size"
+    )]
     ViewSize {
         /// Which view.
         view: &'static str,

@@ -16,6 +16,8 @@ pub mod plan;
 #[cfg(feature = "path-tracer")]
 pub mod scene;
 mod settings;
+#[cfg(all(test, feature = "path-tracer"))]
+mod twins;
 mod view;
 
 pub use camera::Camera;
@@ -25,3 +27,12 @@ pub use gpu::timing::FrameTimes;
 pub use passes::Pass;
 pub use settings::*;
 pub use view::{View, ViewOptions};
+
+/// A host may record in any thread.
+const _: () = {
+    const fn shared<T: Send + Sync>() {}
+    shared::<Denoiser>();
+    shared::<Error>();
+    #[cfg(feature = "path-tracer")]
+    shared::<scene::GpuScene>();
+};

@@ -77,8 +77,8 @@ pub enum Feature {
     Feedback,
     /// The variance is that of the mean.
     VarianceOfMean,
-    /// The first spatial iteration compares smoothed luminances.
-    Prefilter,
+    /// The first of the spatial iterations.
+    FirstIteration,
     /// The published edge stops.
     ClassicStops,
     /// 25 taps instead of 13.
@@ -99,10 +99,34 @@ impl Feature {
     const ALL: [Self; 28] = {
         use Feature::*;
         [
-            Instanced, Textures, ShadingNormals, Specular, AlphaMask, Lights, Emitters, PunctualLights, EnvironmentLight,
-            DirectEmission, LightSamplesOnly, ScatteredRaysOnly, Objects, Gradient, Reshade, BlinnPhong, HistoryRatio,
-            BlendByLambda, Feedback, VarianceOfMean, Prefilter, ClassicStops, FullKernel, LocalLinearFit, Unfiltered,
-            Accumulate, TargetF16, TargetPicture,
+            Instanced,
+            Textures,
+            ShadingNormals,
+            Specular,
+            AlphaMask,
+            Lights,
+            Emitters,
+            PunctualLights,
+            EnvironmentLight,
+            DirectEmission,
+            LightSamplesOnly,
+            ScatteredRaysOnly,
+            Objects,
+            Gradient,
+            Reshade,
+            BlinnPhong,
+            HistoryRatio,
+            BlendByLambda,
+            Feedback,
+            VarianceOfMean,
+            FirstIteration,
+            ClassicStops,
+            FullKernel,
+            LocalLinearFit,
+            Unfiltered,
+            Accumulate,
+            TargetF16,
+            TargetPicture,
         ]
     };
 
@@ -192,10 +216,8 @@ pub enum Image {
     History,
     /// The history's colour, where it comes from the spatial filter.
     Feedback,
-    /// Colour and variance between spatial iterations; two take turns.
+    /// Colour, variance, normal and depth between spatial iterations; two take turns.
     Color(u8),
-    /// Smoothed luminance.
-    Luminance,
     /// Records of the strata.
     Samples,
     /// Radiances now of the gradient's pairs; two take turns while they are filtered.
@@ -227,11 +249,11 @@ impl Image {
         match self {
             Self::Visibility | Self::Object => TextureFormat::R32Uint,
             Self::Guide | Self::Radiance | Self::Emission | Self::Feedback => TextureFormat::Rg32Uint,
-            Self::History | Self::Samples => TextureFormat::Rgba32Uint,
+            Self::History | Self::Samples | Self::Color(_) => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
-            Self::Luminance | Self::PairsProduct(_) => TextureFormat::R32Float,
+            Self::PairsProduct(_) => TextureFormat::R32Float,
             Self::Gradient(_) => TextureFormat::Rg32Float,
-            Self::Motion | Self::Color(_) | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
+            Self::Motion | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
                 TextureFormat::Rgba32Float
             }
         }
@@ -313,12 +335,13 @@ impl Plan {
     fn filter(&mut self, filter: &FilterSettings) {
         let features = self.features;
         if features.has(Feature::Gradient) {
-            let iterations = filter.gradient_iterations;
             if features.has(Feature::HistoryRatio) {
                 self.steps.push(passes::gradient_pairs::step(features));
-                self.steps.extend((0..iterations).map(|i| passes::gradient_pairs_filter::step(features, i)));
+                let filters = (0..filter.ratio_iterations).map(|i| passes::gradient_pairs_filter::step(features, i));
+                self.steps.extend(filters);
             }
-            self.steps.push(passes::gradient::step(features, (iterations % 2) as u8));
+            self.steps.push(passes::gradient::step(features, (filter.ratio_iterations % 2) as u8));
+            let iterations = filter.gradient_iterations;
             self.steps.extend((0..iterations).map(|i| passes::gradient_filter::step(features, i)));
             self.gradient = Some(Image::Gradient((iterations % 2) as u8));
         }
@@ -365,7 +388,11 @@ fn traced_features(traits: &Traits, settings: &Settings) -> Features {
         (Accumulate, settings.mode == Mode::Reference),
     ];
     let chosen: Features = scene.into_iter().filter(|(_, on)| *on).map(|(f, _)| f).collect();
-    if settings.mode == Mode::Denoise { chosen.iter().chain(filter_features(&settings.filter).iter()).collect() } else { chosen }
+    if settings.mode == Mode::Denoise {
+        chosen.iter().chain(filter_features(&settings.filter).iter()).collect()
+    } else {
+        chosen
+    }
 }
 
 fn filter_features(filter: &FilterSettings) -> Features {
@@ -381,7 +408,6 @@ fn filter_features(filter: &FilterSettings) -> Features {
         (BlendByLambda, filter.blend == Blend::Lambda),
         (Feedback, spatial && filter.feedback),
         (VarianceOfMean, filter.variance == Variance::OfMean),
-        (Prefilter, spatial && filter.luminance_prefilter),
         (ClassicStops, filter.stops == Stops::Classic),
         (FullKernel, filter.kernel == Kernel::Full),
         (LocalLinearFit, filter.local_linear_fit),

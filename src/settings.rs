@@ -62,6 +62,7 @@ impl Settings {
         within("filter.history_power", f.history_power, 0.0, 64.0, "0…64")?;
         within("filter.gradient_gamma", f.gradient_gamma, 0.0, 1.0, "0…1")?;
         within("filter.gradient_iterations", f.gradient_iterations as f32, 0.0, 7.0, "0…7")?;
+        within("filter.ratio_iterations", f.ratio_iterations as f32, 0.0, 7.0, "0…7")?;
         within("filter.iterations", f.iterations as f32, 0.0, 8.0, "0…8")?;
         within("filter.sigma_luminance", f.sigma_luminance, 0.0, 1e6, "0…10⁶")?;
         within("filter.sigma_depth", f.sigma_depth, 1e-6, 1e6, "10⁻⁶…10⁶")?;
@@ -104,6 +105,8 @@ pub struct FilterSettings {
     /// Rescale the history by the ratio that the gradient samples show before blending, and drop only what the ratio does
     /// not explain: less lag and less noise where light moves or dims. Re-shading only. Changing it compiles.
     pub history_ratio: bool,
+    /// Iterations that spread that ratio over the strata, 0…7. More: a steadier ratio, farther from where the light changed.
+    pub ratio_iterations: u32,
     /// γ in λ = A\[Δ^(γ−1)·|δ|\] / A\[Δ^γ\], 0…1. Higher: a dim change beside a bright steady light is overlooked. Lower: a
     /// change that few samples see counts as much as one that all see.
     pub gradient_gamma: f32,
@@ -126,9 +129,6 @@ pub struct FilterSettings {
     pub local_linear_fit: bool,
     /// Ridge on the slopes of that plane, > 0. Higher: closer to the mean. Lower: follows noise.
     pub ridge: f32,
-    /// Compare smoothed luminances in the first iteration while histories are short: half the energy lost to the preference
-    /// for dark neighbours. Changing it compiles.
-    pub luminance_prefilter: bool,
     /// Spatial iterations, 0…8, with steps of 1, 2, 4 … pixels. More: smoother, costlier, blurrier.
     pub iterations: u32,
     /// Luminance stop in standard deviations of the noise. Higher: smoother, edges of shadows blur. 0 filters nothing but
@@ -149,8 +149,9 @@ impl Default for FilterSettings {
             max_history: 64.0,
             history_power: 3.5,
             history_ratio: true,
+            ratio_iterations: 3,
             gradient_gamma: 0.5,
-            gradient_iterations: 3,
+            gradient_iterations: 2,
             blend: Blend::HistoryLength,
             feedback: false,
             variance: Variance::OfMean,
@@ -158,7 +159,6 @@ impl Default for FilterSettings {
             kernel: Kernel::Diamond,
             local_linear_fit: true,
             ridge: 0.25,
-            luminance_prefilter: true,
             iterations: 4,
             sigma_luminance: 4.0,
             sigma_depth: 0.01,
@@ -176,6 +176,7 @@ impl FilterSettings {
             max_history: 64.0,
             history_power: 10.0,
             history_ratio: false,
+            ratio_iterations: 3,
             gradient_gamma: 0.0,
             gradient_iterations: 3,
             blend: Blend::Lambda,
@@ -185,7 +186,6 @@ impl FilterSettings {
             kernel: Kernel::Full,
             local_linear_fit: false,
             ridge: 0.25,
-            luminance_prefilter: false,
             iterations: 5,
             sigma_luminance: 4.0,
             sigma_depth: 1.0,

@@ -33,11 +33,14 @@ pub enum View {
     Variance = 11,
     /// 1 where the filtered image is not finite.
     NonFinite = 12,
+    /// Rays that the pixel cost in this frame, shadow rays and the primary one included; exact to 2048. Picture: white at
+    /// [`ViewOptions::range`].
+    Rays = 13,
 }
 
 impl View {
     /// Every view, in order.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Denoised,
         Self::Noisy,
         Self::Albedo,
@@ -51,6 +54,7 @@ impl View {
         Self::HistoryLength,
         Self::Variance,
         Self::NonFinite,
+        Self::Rays,
     ];
 
     /// The name in lower case with hyphens: `history-length`.
@@ -69,6 +73,7 @@ impl View {
             Self::HistoryLength => "history-length",
             Self::Variance => "variance",
             Self::NonFinite => "non-finite",
+            Self::Rays => "rays",
         }
     }
 
@@ -77,6 +82,7 @@ impl View {
         match self {
             Self::Motion => 8.0,
             Self::HistoryLength => 64.0,
+            Self::Rays => 16.0,
             _ => 4.0,
         }
     }

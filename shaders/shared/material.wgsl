@@ -1,6 +1,6 @@
 #define_import_path asvgf::material
 
-#import asvgf::scene::{materials, triangles, TWO_SIDED_EMITTER, UNLIT}
+#import asvgf::scene::{materials, triangle_word, TWO_SIDED_EMITTER, UNLIT}
 #import asvgf::surface::{Visible, Triangle, at, geometric_normal, shading_normal, is_front}
 #import asvgf::color::luminance
 #import asvgf::packing::round_to_f16
@@ -28,7 +28,7 @@ struct Surface {
 }
 
 fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f32>) -> Surface {
-    let m = bitcast<u32>(triangles[v.row * 3u].w);
+    let m = triangle_word(v.row * 3u).w;
     var base = materials[m].base_color.xyz;
     var emission = materials[m].emissive;
     var metallic = materials[m].metallic;

@@ -25,6 +25,35 @@ fn unpack_rgb(bits: vec2<u32>) -> vec3<f32> {
     );
 }
 
+// A non-negative float in 16 bits: 6 of exponent, 10 of mantissa, 2⁻³¹ … 2³³, half an ulp 2⁻¹². It is f16 with the sign's bit
+// given to the exponent, made with integers because not every driver has pack2x16float.
+fn pack_unsigned(x: f32) -> u32 {
+    // Exponent bias 127 → 31.
+    return (bitcast<u32>(clamp(x, 0.0, 8.5e9) * 1.262177e-29) + 0x1000u) >> 13u;
+}
+
+fn unpack_unsigned(bits: u32) -> f32 {
+    return bitcast<f32>(bits << 13u) * 7.922816e28;
+}
+
+// What the spatial filter reads of a tap, in one texel: colour, standard deviation of its luminance, packed normal, depth.
+fn pack_tap(color: vec3<f32>, deviation: f32, normal_depth: vec2<u32>) -> vec4<u32> {
+    return vec4(
+        pack_unsigned(color.x) | (pack_unsigned(color.y) << 16u),
+        pack_unsigned(color.z) | (pack_unsigned(deviation) << 16u),
+        normal_depth,
+    );
+}
+
+fn tap_color(tap: vec4<u32>) -> vec3<f32> {
+    return vec3(unpack_unsigned(tap.x & 0xffffu), unpack_unsigned(tap.x >> 16u), unpack_unsigned(tap.y & 0xffffu));
+}
+
+fn tap_variance(tap: vec4<u32>) -> f32 {
+    let deviation = unpack_unsigned(tap.y >> 16u);
+    return deviation * deviation;
+}
+
 // A unit vector as three signed 10-bit numbers (0.06° at worst). Unlike an octahedral map it needs no normalisation and
 // no branch to read back, and the à-trous filter reads it 52 times per pixel.
 fn pack_normal(n: vec3<f32>) -> u32 {

@@ -4,7 +4,7 @@
 // builds, placements for this and the previous frame, surfaces and lights.
 
 struct Scene {
-    // Node of the top-level tree's root and, after the nodes, the first instance record, both in vec4s.
+    // Texel of `nodes` at which the instances' records begin.
     instances: u32,
     instance_count: u32,
     light_count: u32,
@@ -23,14 +23,13 @@ struct Scene {
 }
 
 @group(1) @binding(0) var<uniform> scene: Scene;
-// Bottom-level trees: four vec4 per node, see traverse.wgsl.
-@group(1) @binding(1) var<storage, read> nodes: array<vec4<f32>>;
-// The visibility lookup table: three vec4 per triangle, a vertex and one word each: material, emitter number + 1, unused.
-@group(1) @binding(2) var<storage, read> triangles: array<vec4<f32>>;
+// Trees, and with INSTANCED before them the top level and the instances' records: a row of texels folded into a texture, as
+// texture fetches of four words are faster than buffer reads on every adapter that was tried.
+@group(1) @binding(1) var nodes: texture_2d<u32>;
+// The visibility lookup table: three texels per triangle, a vertex and one word each: material, emitter number + 1, unused.
+@group(1) @binding(2) var triangles: texture_2d<u32>;
 // Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
-// Top-level tree, then ten vec4 per instance.
-@group(1) @binding(4) var<storage, read> instances: array<vec4<f32>>;
 @group(1) @binding(5) var<storage, read> materials: array<Material>;
 @group(1) @binding(6) var<storage, read> lights: array<Light>;
 // RGBA8 texels of all images; the environment's radiances and alias table as f32 bits.
@@ -92,6 +91,15 @@ struct Light {
 
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
+// Width of the folded textures, as in src/scene/folded.rs.
+fn node_word(i: u32) -> vec4<u32> {
+    return textureLoad(nodes, vec2(i & 4095u, i >> 12u), 0);
+}
+
+fn triangle_word(i: u32) -> vec4<u32> {
+    return textureLoad(triangles, vec2(i & 4095u, i >> 12u), 0);
+}
+
 // An affine map as three rows.
 struct Placement {
     x: vec4<f32>,
@@ -114,7 +122,11 @@ fn transform_normal(inverse: Placement, n: vec3<f32>) -> vec3<f32> {
 
 fn instance_record(instance: u32, part: u32) -> Placement {
     let first = scene.instances + instance * 10u + part * 3u;
-    return Placement(instances[first], instances[first + 1u], instances[first + 2u]);
+    return Placement(
+        bitcast<vec4<f32>>(node_word(first)),
+        bitcast<vec4<f32>>(node_word(first + 1u)),
+        bitcast<vec4<f32>>(node_word(first + 2u)),
+    );
 }
 
 fn object_to_world(instance: u32) -> Placement {
@@ -132,5 +144,5 @@ fn previous_object_to_world(instance: u32) -> Placement {
 // Root node of the mesh's tree; the instance's first number in the visibility buffer; its first light; its mesh's first row
 // of the lookup table, doubled, plus 1 where the placement mirrors.
 fn instance_numbers(instance: u32) -> vec4<u32> {
-    return bitcast<vec4<u32>>(instances[scene.instances + instance * 10u + 9u]);
+    return node_word(scene.instances + instance * 10u + 9u);
 }

@@ -1,6 +1,6 @@
 #define_import_path asvgf::surface
 
-#import asvgf::scene::{scene, triangles, attributes, instances, materials, Placement, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, NO_TRIANGLE}
+#import asvgf::scene::{scene, triangle_word, attributes, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, NO_TRIANGLE}
 #import asvgf::packing::unpack_octahedral
 
 // A point of the scene as the visibility buffer names it.
@@ -18,7 +18,7 @@ fn visible(id: u32) -> Visible {
     var high = scene.instance_count;
     for (var i = 0u; i < 32u && high - low > 1u; i++) {
         let middle = (low + high) / 2u;
-        if bitcast<u32>(instances[scene.instances + middle * 10u + 9u].y) <= id {
+        if instance_numbers(middle).y <= id {
             low = middle;
         } else {
             high = middle;
@@ -46,9 +46,17 @@ struct Triangle {
     c: vec3<f32>,
 }
 
+fn stored_triangle(row: u32) -> Triangle {
+    return Triangle(
+        bitcast<vec3<f32>>(triangle_word(row * 3u).xyz),
+        bitcast<vec3<f32>>(triangle_word(row * 3u + 1u).xyz),
+        bitcast<vec3<f32>>(triangle_word(row * 3u + 2u).xyz),
+    );
+}
+
 // World-space vertices in this frame, from the lookup table.
 fn triangle_now(v: Visible) -> Triangle {
-    let t = Triangle(triangles[v.row * 3u].xyz, triangles[v.row * 3u + 1u].xyz, triangles[v.row * 3u + 2u].xyz);
+    let t = stored_triangle(v.row);
 #ifdef INSTANCED
     let m = object_to_world(v.instance);
     return Triangle(transform_point(m, t.a), transform_point(m, t.b), transform_point(m, t.c));
@@ -60,7 +68,7 @@ fn triangle_now(v: Visible) -> Triangle {
 // World-space vertices in the previous frame.
 fn triangle_before(v: Visible) -> Triangle {
 #ifdef INSTANCED
-    let t = Triangle(triangles[v.row * 3u].xyz, triangles[v.row * 3u + 1u].xyz, triangles[v.row * 3u + 2u].xyz);
+    let t = stored_triangle(v.row);
     let m = previous_object_to_world(v.instance);
     return Triangle(transform_point(m, t.a), transform_point(m, t.b), transform_point(m, t.c));
 #else

@@ -1,6 +1,9 @@
 #define_import_path asvgf::traverse
 
-#import asvgf::scene::{nodes, triangles, instances, scene, world_to_object, transform_point, transform_vector, instance_numbers}
+#import asvgf::scene::{node_word, triangle_word, NO_TRIANGLE}
+#ifdef INSTANCED
+#import asvgf::scene::{world_to_object, transform_point, transform_vector, instance_numbers}
+#endif
 #ifdef ALPHA_MASK
 #import asvgf::texture::is_hole
 #endif
@@ -19,154 +22,102 @@ struct Hit {
     barycentrics: vec2<f32>,
 }
 
+// A distance that means a miss.
+const MISS: f32 = 3.0e38;
+
 // A direction component of zero would make 0·∞ in the slab test; 2⁻⁸⁰ is below anything that a ray of use can resolve.
 fn safe_inverse(d: vec3<f32>) -> vec3<f32> {
     let tiny = vec3(8.3e-25);
     return 1.0 / select(d, select(tiny, -tiny, d < vec3(0.0)), abs(d) < tiny);
 }
 
-// Entry distance into a box (slab method, Kay and Kajiya 1986), or a huge number where it is missed.
+// Entry distance into a box (slab method, Kay and Kajiya 1986), or `MISS`.
 fn enter_box(origin: vec3<f32>, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>, limit: f32) -> f32 {
     let a = (low - origin) * inverse;
     let b = (high - origin) * inverse;
     let near = min(a, b);
     let far = max(a, b);
-    let t0 = max(max(near.x, near.y), max(near.z, 0.0));
+    let t_near = max(max(near.x, near.y), max(near.z, 0.0));
     // Widened by 3 ulp so that rounding never loses a hit on the box's own face (Ize 2013).
-    let t1 = min(min(far.x, far.y), min(far.z, limit)) * 1.0000004;
-    return select(MISS, t0, t0 <= t1);
+    let t_far = min(min(far.x, far.y), min(far.z, limit)) * 1.0000004;
+    return select(MISS, t_near, t_near <= t_far);
 }
-
-const MISS: f32 = 3.0e38;
 
 // Möller and Trumbore 1997. Returns distance, u, v; a distance of `MISS` where there is no hit in (0, limit).
 fn intersect_triangle(origin: vec3<f32>, direction: vec3<f32>, triangle: u32, limit: f32) -> vec3<f32> {
-    let v0 = triangles[triangle * 3u].xyz;
-    let e1 = triangles[triangle * 3u + 1u].xyz - v0;
-    let e2 = triangles[triangle * 3u + 2u].xyz - v0;
-    let p = cross(direction, e2);
-    let determinant = dot(e1, p);
+    let a = bitcast<vec3<f32>>(triangle_word(triangle * 3u).xyz);
+    let edge_b = bitcast<vec3<f32>>(triangle_word(triangle * 3u + 1u).xyz) - a;
+    let edge_c = bitcast<vec3<f32>>(triangle_word(triangle * 3u + 2u).xyz) - a;
+    let p = cross(direction, edge_c);
+    let determinant = dot(edge_b, p);
     let inverse = 1.0 / determinant;
-    let s = origin - v0;
+    let s = origin - a;
     let u = dot(s, p) * inverse;
-    let q = cross(s, e1);
+    let q = cross(s, edge_b);
     let v = dot(direction, q) * inverse;
-    let t = dot(e2, q) * inverse;
+    let t = dot(edge_c, q) * inverse;
     // A degenerate triangle has determinant 0: no comparison with the infinities that follow is relied on.
     let hit = determinant != 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < limit;
     return vec3(select(MISS, t, hit), u, v);
 }
 
-// Both kinds of query are one loop over a stack of nodes. A node holds the boxes of its two children
-// (Aila and Laine 2009): (low, reference), (high, count) for each; a count of 0 is an inner node.
-//
-// With INSTANCED, the top-level tree's leaves are references with `INSTANCE_BIT` set: the ray goes on in that instance's
-// object space, and `TOP_LEVEL` on the stack marks where world space resumes.
-const TOP_LEVEL: u32 = 0xffffffffu;
+// References, as src/scene/bvh.rs makes them: an inner node's number, or a leaf: LEAF, its count and its first row.
+const LEAF: u32 = 0x80000000u;
+const COUNT_SHIFT: u32 = 27u;
+const FIRST_MASK: u32 = 0x07ffffffu;
+// A leaf of no triangles lies at the bottom of the stack.
+const NOTHING: u32 = 0x80000000u;
+// With INSTANCED, the leaves of the top level are instances, the ray goes on in object space, and another leaf of no triangles
+// marks on the stack where world space resumes.
+const TOP_LEVEL: u32 = 0x87ffffffu;
 
+// One loop for both kinds of query: down the tree to the nearest leaf, its triangles, the next node from the stack (Aila and
+// Laine 2009, "while-while"). A node holds the boxes of both children: (low, reference) and (high, unused) for each.
 fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
-    var hit = Hit(limit, 0xffffffffu, 0u, vec2(0.0));
+    var hit = Hit(limit, NO_TRIANGLE, 0u, vec2(0.0));
     var stack: array<u32, #{STACK_SIZE}>;
-    var depth = 0u;
-    var node = 0u;
+    stack[0] = NOTHING;
+    var depth = 1u;
+    // The root.
+    var current = 0u;
     var origin = ray.origin;
     var direction = ray.direction;
     var inverse = safe_inverse(direction);
 #ifdef INSTANCED
-    var instance = TOP_LEVEL;
-#else
-    let instance = 0u;
+    var instance = NO_TRIANGLE;
 #endif
     loop {
-#ifdef INSTANCED
-        var left_low: vec4<f32>;
-        var left_high: vec4<f32>;
-        var right_low: vec4<f32>;
-        var right_high: vec4<f32>;
-        if instance == TOP_LEVEL {
-            left_low = instances[node * 4u];
-            left_high = instances[node * 4u + 1u];
-            right_low = instances[node * 4u + 2u];
-            right_high = instances[node * 4u + 3u];
-        } else {
-            left_low = nodes[node * 4u];
-            left_high = nodes[node * 4u + 1u];
-            right_low = nodes[node * 4u + 2u];
-            right_high = nodes[node * 4u + 3u];
+        while current < LEAF {
+            let left_low = node_word(current * 4u);
+            let left_high = node_word(current * 4u + 1u);
+            let right_low = node_word(current * 4u + 2u);
+            let right_high = node_word(current * 4u + 3u);
+            let left = enter_box(
+                origin, inverse, bitcast<vec3<f32>>(left_low.xyz), bitcast<vec3<f32>>(left_high.xyz), hit.distance);
+            let right = enter_box(
+                origin, inverse, bitcast<vec3<f32>>(right_low.xyz), bitcast<vec3<f32>>(right_high.xyz), hit.distance);
+            let swap = right < left;
+            let near = select(left_low.w, right_low.w, swap);
+            let far = select(right_low.w, left_low.w, swap);
+            // The stack's top is written either way, and only kept where the farther child is to be visited too.
+            let popped = stack[depth - 1u];
+            let both = max(left, right) < MISS;
+            let neither = min(left, right) >= MISS;
+            stack[depth] = far;
+            depth = depth + select(0u, 1u, both) - select(0u, 1u, neither);
+            current = select(near, popped, neither);
         }
-#else
-        let left_low = nodes[node * 4u];
-        let left_high = nodes[node * 4u + 1u];
-        let right_low = nodes[node * 4u + 2u];
-        let right_high = nodes[node * 4u + 3u];
-#endif
-        var near = enter_box(origin, inverse, left_low.xyz, left_high.xyz, hit.distance);
-        var far = enter_box(origin, inverse, right_low.xyz, right_high.xyz, hit.distance);
-        var near_reference = bitcast<u32>(left_low.w);
-        var near_count = bitcast<u32>(left_high.w);
-        var far_reference = bitcast<u32>(right_low.w);
-        var far_count = bitcast<u32>(right_high.w);
-        if far < near {
-            let t = near; near = far; far = t;
-            let r = near_reference; near_reference = far_reference; far_reference = r;
-            let c = near_count; near_count = far_count; far_count = c;
-        }
-        // Leaves are tested at once, nearest first; inner nodes are visited, the farther one later.
-        var next = NOTHING;
-        for (var side = 0; side < 2; side++) {
-            let entry = select(far, near, side == 0);
-            if entry >= hit.distance {
-                continue;
-            }
-            let reference = select(far_reference, near_reference, side == 0);
-            let count = select(far_count, near_count, side == 0);
-            if count == 0u {
-                if next == NOTHING {
-                    next = reference;
-                } else {
-                    stack[depth] = reference;
-                    depth += 1u;
-                }
-                continue;
-            }
-            for (var i = 0u; i < count; i++) {
-                let t = intersect_triangle(origin, direction, reference + i, hit.distance);
-                if t.x < hit.distance {
-#ifdef ALPHA_MASK
-                    if is_hole(reference + i, t.yz) {
-                        continue;
-                    }
-#endif
-                    hit = Hit(t.x, reference + i, instance, t.yz);
-                    if any_hit {
-                        return hit;
-                    }
-                }
-            }
-        }
-        if next == NOTHING {
-            if depth == 0u {
-                break;
-            }
-            depth -= 1u;
-            next = stack[depth];
-#ifdef INSTANCED
-            if next == TOP_LEVEL {
-                instance = TOP_LEVEL;
-                origin = ray.origin;
-                direction = ray.direction;
-                inverse = safe_inverse(direction);
-                if depth == 0u {
-                    break;
-                }
-                depth -= 1u;
-                next = stack[depth];
-            }
-#endif
+        if current == NOTHING {
+            break;
         }
 #ifdef INSTANCED
-        if (next & INSTANCE_BIT) != 0u {
-            instance = next & ~INSTANCE_BIT;
+        if current == TOP_LEVEL {
+            instance = NO_TRIANGLE;
+            origin = ray.origin;
+            direction = ray.direction;
+            inverse = safe_inverse(direction);
+        } else if instance == NO_TRIANGLE {
+            instance = current & FIRST_MASK;
             let placement = world_to_object(instance);
             // Not normalised: distances stay those of world space.
             origin = transform_point(placement, ray.origin);
@@ -174,17 +125,37 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
             inverse = safe_inverse(direction);
             stack[depth] = TOP_LEVEL;
             depth += 1u;
-            next = instance_numbers(instance).x;
+            current = instance_numbers(instance).x;
+            continue;
         }
 #endif
-        node = next;
+        let first = current & FIRST_MASK;
+        let end = first + ((current >> COUNT_SHIFT) & 15u);
+        for (var row = first; row < end; row++) {
+            let t = intersect_triangle(origin, direction, row, hit.distance);
+            var closer = t.x < hit.distance;
+#ifdef ALPHA_MASK
+            if closer {
+                closer = !is_hole(row, t.yz);
+            }
+#endif
+            if closer {
+                hit.distance = t.x;
+                hit.triangle = row;
+#ifdef INSTANCED
+                hit.instance = instance;
+#endif
+                hit.barycentrics = t.yz;
+            }
+        }
+        if any_hit && hit.triangle != NO_TRIANGLE {
+            break;
+        }
+        depth -= 1u;
+        current = stack[depth];
     }
     return hit;
 }
-
-// Never a node: inner nodes are numbered from 0.
-const NOTHING: u32 = 0x7fffffffu;
-const INSTANCE_BIT: u32 = 0x80000000u;
 
 fn closest_hit(ray: Ray) -> Hit {
     return traverse(ray, MISS, false);
@@ -192,5 +163,5 @@ fn closest_hit(ray: Ray) -> Hit {
 
 // Whether something lies on the open segment from the origin to `limit`.
 fn occluded(ray: Ray, limit: f32) -> bool {
-    return traverse(ray, limit, true).triangle != 0xffffffffu;
+    return traverse(ray, limit, true).triangle != NO_TRIANGLE;
 }

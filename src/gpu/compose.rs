@@ -61,17 +61,18 @@ impl Shaders {
     }
 
     pub fn compose(&mut self, permutation: Permutation) -> Result<Module, Error> {
+        self.compose_source(permutation.pass.source(), permutation)
+    }
+
+    /// As [`Shaders::compose`], from another source than the pass's own.
+    pub fn compose_source(&mut self, source: &str, permutation: Permutation) -> Result<Module, Error> {
         let Permutation { pass, features, stack, view } = permutation;
         let mut defs: HashMap<String, ShaderDefValue> =
             features.iter().map(|f| (f.define(), ShaderDefValue::Bool(true))).collect();
         defs.insert("STACK_SIZE".into(), ShaderDefValue::UInt(stack));
         defs.insert("VIEW".into(), ShaderDefValue::UInt(view));
-        let descriptor = NagaModuleDescriptor {
-            source: pass.source(),
-            file_path: pass.name(),
-            shader_defs: defs,
-            ..Default::default()
-        };
+        let descriptor =
+            NagaModuleDescriptor { source, file_path: pass.name(), shader_defs: defs, ..Default::default() };
         self.0.make_naga_module(descriptor).map_err(|e| Error::Shader {
             shader: pass.name(),
             features: format!("{features:?}"),

@@ -86,3 +86,17 @@ impl FrameUniform {
         }
     }
 }
+
+#[cfg(all(test, feature = "path-tracer"))]
+mod tests {
+    use super::*;
+    use crate::twins::layout::{assert_layout, fields};
+
+    #[test]
+    fn the_frame_lies_where_the_shader_reads_it() {
+        let fields = fields!(FrameUniform: camera, previous, size, strata, index, seed, continued, samples, bounces, roulette,
+            alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
+            ratio_chroma_limit, ratio_prior, ratio_shrinkage);
+        assert_layout("Frame", fields, size_of::<FrameUniform>());
+    }
+}

@@ -79,6 +79,12 @@ impl Kernel {
         Ok(Self { pipeline, groups, label })
     }
 
+    /// Names of the bindings of a group.
+    #[cfg(test)]
+    pub fn names(&self, group: usize) -> impl Iterator<Item = &str> {
+        self.groups.get(group).into_iter().flat_map(|(_, names)| names.iter().map(|(_, name)| name.as_str()))
+    }
+
     /// Bind groups with what `resource` returns for each name.
     ///
     /// # Errors
@@ -99,7 +105,11 @@ impl Kernel {
                             .ok_or_else(|| name.clone())
                     })
                     .collect::<Result<Vec<_>, _>>()?;
-                Ok(device.create_bind_group(&BindGroupDescriptor { label: Some(&self.label), layout, entries: &entries }))
+                Ok(device.create_bind_group(&BindGroupDescriptor {
+                    label: Some(&self.label),
+                    layout,
+                    entries: &entries,
+                }))
             })
             .collect()
     }

@@ -2,9 +2,7 @@
 
 use crate::plan::{Grid, Image, Plan};
 use std::collections::BTreeMap;
-use wgpu::{
-    Device, Extent3d, TextureDescriptor, TextureDimension, TextureUsages, TextureView, TextureViewDescriptor,
-};
+use wgpu::{Device, Extent3d, TextureDescriptor, TextureDimension, TextureUsages, TextureView, TextureViewDescriptor};
 
 /// Strata of 3×3 pixels that cover an image.
 pub(crate) fn strata(size: [u32; 2]) -> [u32; 2] {

@@ -5,12 +5,12 @@ use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
 const FEATURES: &[Feature] = &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit];
 
-/// Only the first iteration compares smoothed luminances and feeds the history.
-const FIRST: &[Feature] = &[Feature::Prefilter, Feature::Feedback];
+/// Only the first iteration smooths the variance and feeds the history.
+const FIRST: &[Feature] = &[Feature::FirstIteration, Feature::Feedback];
 
 pub(crate) fn step(features: Features, iteration: u32) -> Step {
     let first: &[Feature] = if iteration == 0 { FIRST } else { &[] };
-    let features = features.and(FEATURES.iter().chain(first).copied().collect());
+    let features = features.with(Feature::FirstIteration).and(FEATURES.iter().chain(first).copied().collect());
     let from = (iteration % 2) as u8;
     Step {
         pass: Pass::Atrous,
@@ -20,9 +20,7 @@ pub(crate) fn step(features: Features, iteration: u32) -> Step {
         bindings: bindings(
             features,
             [
-                ("guide", Slot::Now(Image::Guide), &[]),
                 ("color", Slot::Now(Image::Color(from)), &[]),
-                ("smoothed", Slot::Now(Image::Luminance), &[Feature::Prefilter]),
                 ("color_out", Slot::Now(Image::Color(1 - from)), &[]),
                 ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),
             ],

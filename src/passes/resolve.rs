@@ -3,8 +3,7 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] =
-    &[Feature::Unfiltered, Feature::DirectEmission, Feature::Accumulate, Feature::TargetF16];
+const FEATURES: &[Feature] = &[Feature::Unfiltered, Feature::DirectEmission, Feature::Accumulate, Feature::TargetF16];
 
 /// `color` is where the filtered colour is, if anything was filtered.
 pub(crate) fn step(features: Features, color: Option<Image>) -> Step {

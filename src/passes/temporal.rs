@@ -11,7 +11,6 @@ const FEATURES: &[Feature] = &[
     Feature::BlendByLambda,
     Feature::Feedback,
     Feature::VarianceOfMean,
-    Feature::Prefilter,
 ];
 
 /// `gradient` is where the filtered gradient is, if there is one.
@@ -40,7 +39,6 @@ pub(crate) fn step(features: Features, gradient: Option<Image>) -> Step {
                 ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
                 ("history_out", Slot::Now(Image::History), &[]),
                 ("color_out", Slot::Now(Image::Color(0)), &[]),
-                ("luminance_out", Slot::Now(Image::Luminance), &[Feature::Prefilter]),
             ],
         ),
     }

@@ -3,7 +3,7 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] = &[Feature::Feedback, Feature::VarianceOfMean, Feature::Prefilter];
+const FEATURES: &[Feature] = &[Feature::Feedback, Feature::VarianceOfMean];
 
 pub(crate) fn step(features: Features) -> Step {
     let features = features.and(Features::of(FEATURES));
@@ -19,7 +19,6 @@ pub(crate) fn step(features: Features) -> Step {
                 ("history", Slot::Now(Image::History), &[]),
                 ("feedback", Slot::Now(Image::Feedback), &[Feature::Feedback]),
                 ("color_out", Slot::Now(Image::Color(0)), &[]),
-                ("luminance_out", Slot::Now(Image::Luminance), &[Feature::Prefilter]),
             ],
         ),
     }

@@ -55,7 +55,7 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
     let names: &[&str] = match view {
         View::Denoised => &["color", "albedo", "emission"],
         View::Noisy => &["radiance", "albedo", "emission"],
-        View::Albedo => &["albedo"],
+        View::Albedo | View::Rays => &["albedo"],
         View::Normal | View::Depth => &["guide"],
         View::TriangleId => &["visibility"],
         View::Motion => &["motion"],

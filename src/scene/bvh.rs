@@ -5,8 +5,7 @@ use glam::Vec3A;
 use obvhs::{BvhBuildParams, aabb::Aabb, bvh2::Bvh2, bvh2::builder, triangle::Triangle};
 use std::time::Duration;
 
-/// A node as the shader reads it: the boxes of its two children (Aila and Laine 2009). A child with a count of 0 is the
-/// node `reference`, else it is `count` triangles from `reference` on.
+/// A node as the shader reads it: the boxes of its two children (Aila and Laine 2009).
 ///
 /// obvhs' own node is never cast: its size depends on a cargo feature that another crate may switch on.
 #[repr(C)]
@@ -20,18 +19,32 @@ pub(crate) struct Node {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct Child {
     pub low: [f32; 3],
+    /// The number of a node, or [`leaf`].
     pub reference: u32,
     pub high: [f32; 3],
-    pub count: u32,
+    pub pad: u32,
 }
 
 impl Child {
-    /// A box that no ray enters.
-    const EMPTY: Self = Self { low: [3.0e38; 3], reference: 0, high: [-3.0e38; 3], count: 0 };
+    /// A box that rays miss: a point so far away that only one direction in 10¹² leads there, to a leaf of nothing. An inverted
+    /// box would not do, as a slab test that sorts its two distances takes it for everything.
+    const UNREACHABLE: Self = Self { low: FAR, reference: LEAF, high: FAR, pad: 0 };
 }
 
-/// A reference to an instance instead of a node, in a top-level tree.
-pub(crate) const INSTANCE_BIT: u32 = 0x8000_0000;
+const FAR: [f32; 3] = [1.37e30, -0.71e30, 0.53e30];
+
+/// Marks the reference of a leaf, as in shaders/shared/traverse.wgsl.
+const LEAF: u32 = 0x8000_0000;
+const COUNT_SHIFT: u32 = 27;
+/// Rows, or instances, that a leaf's reference can number.
+pub(crate) const LARGEST_FIRST: u32 = (1 << COUNT_SHIFT) - 2;
+/// Triangles in a leaf: up to here a test of each is cheaper than another level.
+const LEAF_TRIANGLES: u32 = 4;
+
+/// Reference to a run of triangles, or to one instance.
+fn leaf(first: u32, count: u32) -> u32 {
+    LEAF | count << COUNT_SHIFT | first
+}
 
 /// A tree and the order in which its leaves list the primitives.
 pub(crate) struct Tree {
@@ -58,7 +71,8 @@ pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_r
         .map(|t| Triangle { v0: Vec3A::from(t[0]), v1: Vec3A::from(t[1]), v2: Vec3A::from(t[2]) })
         .collect();
     // Without pre-splitting, so that each triangle has one row and one id.
-    let bvh = builder::build_bvh2_from_tris(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
+    let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() };
+    let bvh = builder::build_bvh2_from_tris(&triangles, params, &mut Duration::default());
     lay_out(&bvh, triangles.len(), first_node, Leaves::Triangles(first_row))
 }
 
@@ -72,13 +86,13 @@ pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]]) -> Tree {
 
 fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tree {
     if primitives == 0 || bvh.nodes.is_empty() {
-        let nodes = vec![Node { children: [Child::EMPTY; 2] }];
+        let nodes = vec![Node { children: [Child::UNREACHABLE; 2] }];
         return Tree { nodes, order: Vec::new(), depth: 1, bounds: [[0.0; 3]; 2] };
     }
     let mut tree = Tree { nodes: Vec::new(), order: Vec::with_capacity(primitives), depth: 1, bounds: [[0.0; 3]; 2] };
     let root = bvh.nodes[0];
     tree.bounds = [root.aabb().min.to_array(), root.aabb().max.to_array()];
-    tree.nodes.push(Node { children: [Child::EMPTY; 2] });
+    tree.nodes.push(Node { children: [Child::UNREACHABLE; 2] });
     // (node of obvhs, where its box belongs: our node and side, depth)
     let mut pending: Vec<(usize, usize, usize, u32)> = if root.is_leaf() {
         vec![(0, 0, 0, 1)]
@@ -93,27 +107,30 @@ fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tr
             low: node.aabb().min.to_array(),
             high: node.aabb().max.to_array(),
             reference: first_node + tree.nodes.len() as u32,
-            count: 0,
+            pad: 0,
         };
         if node.is_leaf() {
             let run = node.first_index as usize..(node.first_index + node.prim_count) as usize;
             let primitives = &bvh.primitive_indices[run];
             match leaves {
                 Leaves::Triangles(first_row) => {
-                    child.reference = first_row + tree.order.len() as u32;
-                    child.count = node.prim_count;
+                    child.reference = leaf(first_row + tree.order.len() as u32, node.prim_count);
                 }
-                Leaves::Instances => child.reference = primitives[0] | INSTANCE_BIT,
+                Leaves::Instances => child.reference = leaf(primitives[0], 1),
             }
             tree.order.extend_from_slice(primitives);
         } else {
             let ours = tree.nodes.len();
-            tree.nodes.push(Node { children: [Child::EMPTY; 2] });
+            tree.nodes.push(Node { children: [Child::UNREACHABLE; 2] });
             let first = node.first_index as usize;
             pending.push((first, ours, 0, depth + 1));
             pending.push((first + 1, ours, 1, depth + 1));
         }
         tree.nodes[parent].children[side] = child;
+    }
+    if root.is_leaf() {
+        // Should a ray get to the other child, the same again does no harm: the end of the stack would.
+        tree.nodes[0].children[1].reference = tree.nodes[0].children[0].reference;
     }
     tree
 }
@@ -137,8 +154,12 @@ mod tests {
         let mut pending = vec![0_usize];
         while let Some(index) = pending.pop() {
             for child in tree.nodes[index].children {
-                if child.count > 0 {
-                    for row in child.reference..child.reference + child.count {
+                if child.low == FAR {
+                    assert!(child.reference & LEAF != 0, "a ray that gets here must not go round in circles");
+                } else if child.reference & LEAF != 0 {
+                    let (first, count) =
+                        (child.reference & ((1 << COUNT_SHIFT) - 1), child.reference >> COUNT_SHIFT & 15);
+                    for row in first..first + count {
                         let triangle = tree.order[(row - first_row) as usize] as usize;
                         assert!(!std::mem::replace(&mut seen[triangle], true));
                         for corner in corners[triangle] {
@@ -147,7 +168,7 @@ mod tests {
                             }
                         }
                     }
-                } else if child.low[0] <= child.high[0] {
+                } else {
                     pending.push((child.reference - first_node) as usize);
                 }
             }
@@ -167,7 +188,7 @@ mod tests {
     fn a_tree_of_nothing_has_a_root_that_no_ray_enters() {
         let tree = over_triangles(&[], 0, 0);
         assert_eq!(tree.nodes.len(), 1);
-        assert!(tree.nodes[0].children.iter().all(|c| c.low[0] > c.high[0]));
+        assert!(tree.nodes[0].children.iter().all(|c| c.low == FAR && c.reference == leaf(0, 0)));
     }
 
     #[test]

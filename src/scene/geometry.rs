@@ -1,6 +1,7 @@
 //! Gathers meshes into trees and into the rows of the visibility lookup table.
 
 use super::bvh::{self, Tree};
+use super::folded::Texel;
 use super::{Alpha, Material, Mesh, Scene};
 use crate::plan::Traits;
 use glam::{Mat4, Vec2, Vec3};
@@ -75,9 +76,11 @@ fn faces(mesh: &Mesh, index: usize, placement: Mat4) -> impl Iterator<Item = Fac
 
 /// All trees and rows of a scene, as they go to the GPU.
 pub(super) struct Geometry {
+    /// Number of the first of `nodes`.
+    pub first_node: u32,
     pub nodes: Vec<bvh::Node>,
     /// Three vertices with one word each: material, number among its instance's emitters + 1, unused.
-    pub rows: Vec<[[f32; 4]; 3]>,
+    pub rows: Vec<[Texel; 3]>,
     /// See [`Layout`].
     pub attributes: Vec<u32>,
     pub layout: Layout,
@@ -103,7 +106,7 @@ pub(super) struct Built {
 }
 
 impl Geometry {
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &Scene, first_node: u32) -> Self {
         let used = |set: usize| {
             let reads = |m: &Material| {
                 [m.base_color_texture, m.metallic_roughness_texture, m.emissive_texture]
@@ -120,13 +123,13 @@ impl Geometry {
                 layout.stride += 6;
             }
         }
-        Self { nodes: Vec::new(), rows: Vec::new(), attributes: Vec::new(), layout, depth: 0 }
+        Self { first_node, nodes: Vec::new(), rows: Vec::new(), attributes: Vec::new(), layout, depth: 0 }
     }
 
     /// Builds the group's tree and appends its rows in the order of the leaves.
     pub fn add(&mut self, scene: &Scene, group: &Group) -> Built {
         let first_row = self.rows.len() as u32;
-        let root = self.nodes.len() as u32;
+        let root = self.first_node + self.nodes.len() as u32;
         let corners: Vec<_> = group.faces.iter().map(|f| f.corners.map(|p| p.to_array())).collect();
         let Tree { nodes, order, depth, bounds } = bvh::over_triangles(&corners, root, first_row);
         let mut emitters = Vec::new();
@@ -139,11 +142,7 @@ impl Geometry {
                 number = emitters.len() as u32;
             }
             let [a, b, c] = face.corners;
-            self.rows.push([
-                a.extend(f32::from_bits(material as u32)).to_array(),
-                b.extend(f32::from_bits(number)).to_array(),
-                c.extend(0.0).to_array(),
-            ]);
+            self.rows.push([texel(a, material as u32), texel(b, number), texel(c, 0)]);
             self.add_attributes(&scene.meshes[face.mesh], &face);
         }
         self.nodes.extend(nodes);
@@ -173,6 +172,10 @@ impl Geometry {
     }
 }
 
+fn texel(v: Vec3, word: u32) -> Texel {
+    [v.x.to_bits(), v.y.to_bits(), v.z.to_bits(), word]
+}
+
 /// Whether a material's triangles are lights.
 fn is_emitter(material: &Material) -> bool {
     !material.unlit && material.emissive.iter().any(|&e| e > 0.0)
@@ -182,7 +185,12 @@ fn is_emitter(material: &Material) -> bool {
 pub(super) fn traits(scene: &Scene, layout: Layout) -> Traits {
     let used = || {
         let placed: Vec<usize> = scene.nodes.iter().flat_map(|n| n.meshes.iter().copied()).collect();
-        scene.meshes.iter().enumerate().filter(move |(i, _)| placed.contains(i)).map(|(_, m)| &scene.materials[m.material])
+        scene
+            .meshes
+            .iter()
+            .enumerate()
+            .filter(move |(i, _)| placed.contains(i))
+            .map(|(_, m)| &scene.materials[m.material])
     };
     let textures = |m: &Material| {
         m.base_color_texture.is_some() || m.metallic_roughness_texture.is_some() || m.emissive_texture.is_some()

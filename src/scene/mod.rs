@@ -3,6 +3,7 @@
 mod alias;
 mod bvh;
 mod description;
+mod folded;
 mod geometry;
 mod lights;
 mod measure;

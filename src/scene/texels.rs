@@ -46,11 +46,8 @@ pub(super) fn texture_use(texture: Option<Texture>, places: &[Place]) -> GpuText
         Wrap::Clamp => 2,
     };
     let Place { first, width, height } = places[t.image];
-    let mode = wrap(t.wrap[0])
-        | wrap(t.wrap[1]) << 2
-        | u32::from(t.nearest) << 4
-        | u32::from(t.uv_set == 1) << 5
-        | 1 << 31;
+    let mode =
+        wrap(t.wrap[0]) | wrap(t.wrap[1]) << 2 | u32::from(t.nearest) << 4 | u32::from(t.uv_set == 1) << 5 | 1 << 31;
     let row = |r: [f32; 3]| [r[0], r[1], r[2], 0.0];
     GpuTexture { first, width, height, mode, row_u: row(t.transform[0]), row_v: row(t.transform[1]) }
 }
@@ -80,4 +77,16 @@ pub(super) fn add_environment(environment: &Environment, texels: &mut Vec<u32>) 
         texels.extend([entry.threshold.to_bits(), entry.alias]);
     }
     EnvironmentPlace { radiance, alias: start, weight: weights.iter().sum() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::twins::layout::{assert_layout, fields};
+
+    #[test]
+    fn a_use_of_a_texture_lies_where_the_shaders_read_it() {
+        let fields = fields!(GpuTexture: first, width, height, mode, row_u, row_v);
+        assert_layout("TextureUse", fields, size_of::<GpuTexture>());
+    }
 }

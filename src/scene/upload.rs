@@ -1,6 +1,7 @@
 //! The scene on the GPU, laid out as shaders/shared/scene.wgsl reads it.
 
 use super::bvh;
+use super::folded::{self, Texel};
 use super::geometry::{self, Geometry};
 use super::lights::{self, AnalyticLight, GpuLight};
 use super::texels::{self, GpuTexture, Place};
@@ -12,7 +13,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
-use wgpu::{Buffer, BufferUsages, Device};
+use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, Device, Queue, Texture, TextureView};
 
 /// Lights that the Blinn–Phong gradient evaluates; the strongest are kept.
 const ANALYTIC_LIGHTS: usize = 64;
@@ -47,11 +48,10 @@ pub struct GpuScene {
 #[derive(Debug)]
 struct Buffers {
     scene: Buffer,
-    nodes: Buffer,
-    triangles: Buffer,
+    nodes: (Texture, TextureView),
+    triangles: (Texture, TextureView),
     attributes: Buffer,
     texels: Buffer,
-    instances: Buffer,
     materials: Buffer,
     lights: Buffer,
     analytic_lights: Buffer,
@@ -129,17 +129,22 @@ impl GpuScene {
     ///
     /// # Errors
     /// [`Scene::validate`]'s, and one that names the part of the scene that is larger than the device's storage bindings.
-    pub fn new(device: &Device, scene: &Scene) -> Result<Self, SceneError> {
+    pub fn new(device: &Device, queue: &Queue, scene: &Scene) -> Result<Self, SceneError> {
         scene.validate()?;
         let pose = scene.pose(None, 0.0);
-        let mut geometry = Geometry::new(scene);
+        let groups = geometry::groups(scene, &pose.world);
+        let instanced = groups.len() > 1 || !groups[0].nodes.is_empty();
+        let instance_count: usize = groups.iter().map(|g| g.nodes.len().max(1)).sum();
+        // The top level and the records come first, in rows of their own, as they are replaced when something moves.
+        let top_texels = if instanced { top_level_texels(instance_count) } else { 0 };
+        let mut geometry = Geometry::new(scene, (top_texels / 4) as u32);
         let mut traits = geometry::traits(scene, geometry.layout);
         let mut instances = Vec::new();
         let mut light_table = Vec::new();
         let mut powers = Vec::new();
         let mut emitters = BTreeMap::<(usize, usize), Emitter>::new();
         let mut next_id = 0;
-        for group in geometry::groups(scene, &pose.world) {
+        for group in groups {
             let built = geometry.add(scene, &group);
             let nodes: Vec<Option<usize>> =
                 if group.nodes.is_empty() { vec![None] } else { group.nodes.iter().copied().map(Some).collect() };
@@ -158,9 +163,11 @@ impl GpuScene {
                     let [a, b, c] = face.corners.map(|p| placement.transform_point3(p));
                     let area = 0.5 * f64::from((b - a).cross(c - a).length());
                     powers.push(area * PI * lights::luminance(scene.materials[material].emissive));
-                    let emitter = emitters
-                        .entry((instance, material))
-                        .or_insert_with(|| Emitter { node, material, ..Default::default() });
+                    let emitter = emitters.entry((instance, material)).or_insert_with(|| Emitter {
+                        node,
+                        material,
+                        ..Default::default()
+                    });
                     emitter.add(face.corners, face.area_normal());
                 }
                 instances.push(Instance {
@@ -174,7 +181,8 @@ impl GpuScene {
                 next_id += group.faces.len() as u32;
             }
         }
-        let radius = scene.bounds(&pose).map_or(1.0, |[low, high]| f64::from(Vec3::from(low).distance(high.into())) / 2.0);
+        let radius =
+            scene.bounds(&pose).map_or(1.0, |[low, high]| f64::from(Vec3::from(low).distance(high.into())) / 2.0);
         let first_punctual = light_table.len();
         let mut punctual = Vec::new();
         for (node, description) in scene.nodes.iter().enumerate() {
@@ -189,6 +197,7 @@ impl GpuScene {
         let images = texels::add_images(&scene.images, &mut words);
         let layout = geometry.layout;
         let mut header = Header {
+            instances: top_level_nodes(instance_count) as u32 * 4,
             instance_count: instances.len() as u32,
             environment_light: u32::MAX,
             attribute_stride: layout.stride as u32,
@@ -210,7 +219,7 @@ impl GpuScene {
                 powers.push(place.weight * PI * radius * radius);
             }
         }
-        traits.instanced = instances.len() > 1 || instances.iter().any(|i| i.node.is_some());
+        traits.instanced = instanced;
         traits.punctual_lights = !punctual.is_empty();
         traits.environment = environment_weight > 0.0;
         traits.emitters &= first_punctual > 0;
@@ -220,11 +229,19 @@ impl GpuScene {
         }
         header.light_count = light_table.len() as u32;
 
-        check_size(device, "triangles", size_of_val(geometry.rows.as_slice()))?;
-        check_size(device, "tree nodes", size_of_val(geometry.nodes.as_slice()))?;
+        let mut nodes = vec![Texel::default(); top_texels];
+        nodes.extend_from_slice(folded::texels(&geometry.nodes));
+        let rows = folded::texels(&geometry.rows);
+        check_texels(device, "triangles", rows.len())?;
+        check_texels(device, "tree nodes", nodes.len())?;
         check_size(device, "images", size_of_val(words.as_slice()))?;
         check_size(device, "normals and texture coordinates", size_of_val(geometry.attributes.as_slice()))?;
         let empty = storage(device, "placeholder", &[0_u32; 4], 16);
+        let folded = |label, texels| {
+            let texture = folded::texture(device, queue, label, texels);
+            let view = texture.create_view(&Default::default());
+            (texture, view)
+        };
         let mut this = Self {
             id: {
                 static NEXT: AtomicU64 = AtomicU64::new(1);
@@ -244,11 +261,11 @@ impl GpuScene {
             header,
             buffers: Buffers {
                 scene: empty.clone(),
-                nodes: storage(device, "tree nodes", &geometry.nodes, 64),
-                triangles: storage(device, "visibility lookup table", &geometry.rows, 48),
+                // Replaced below, once the placements are known.
+                nodes: folded("tree nodes", &[]),
+                triangles: folded("visibility lookup table", rows),
                 attributes: storage(device, "normals and texture coordinates", &geometry.attributes, 4),
                 texels: storage(device, "texels", &words, 4),
-                instances: empty.clone(),
                 materials: empty.clone(),
                 lights: empty.clone(),
                 analytic_lights: empty.clone(),
@@ -256,11 +273,15 @@ impl GpuScene {
             },
             triangles: geometry.rows.len(),
         };
-        let top = this.upload_placements(device, &pose);
+        let (top, depth) = this.placements(&pose);
+        nodes[..top.len()].copy_from_slice(&top);
+        this.buffers.nodes = folded("tree nodes", &nodes);
+        this.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&this.header), BufferUsages::UNIFORM);
         this.upload_materials(device);
         this.upload_lights(device);
         this.buffers.analytic_lights_previous = this.buffers.analytic_lights.clone();
-        this.stack = (geometry.depth + top + 2).next_multiple_of(4);
+        // One slot for the bottom, one for the mark between the levels, one that is written before it is known to be kept.
+        this.stack = (geometry.depth + depth + 3).next_multiple_of(4);
         if this.stack > LARGEST_STACK {
             let reason = format!("their tree has {} levels, {LARGEST_STACK} at most can be traversed", this.stack);
             return Err(SceneError { file: "scene".into(), element: "triangles".into(), reason });
@@ -269,15 +290,14 @@ impl GpuScene {
     }
 
     /// Moves what moves and dims what dims. The pose before becomes the previous frame's: call this once per frame, even if
-    /// nothing moved, so that motion ends when movement does. Buffers are replaced, not overwritten, so frames that were
-    /// recorded but not yet submitted keep theirs.
+    /// nothing moved, so that motion ends when movement does. What changes is recorded in the encoder, or goes into new buffers:
+    /// frames that were recorded but not yet submitted keep theirs.
     ///
     /// # Errors
     /// One that names the element of the pose that does not belong to this scene or is not finite; nothing has changed then.
-    pub fn update(&mut self, device: &Device, pose: &Pose) -> Result<(), SceneError> {
-        let wrong = |element: String, reason: &str| {
-            Err(SceneError { file: "pose".into(), element, reason: reason.into() })
-        };
+    pub fn update(&mut self, device: &Device, encoder: &mut CommandEncoder, pose: &Pose) -> Result<(), SceneError> {
+        let wrong =
+            |element: String, reason: &str| Err(SceneError { file: "pose".into(), element, reason: reason.into() });
         let lengths = |p: &Pose| [p.world.len(), p.emission.len(), p.intensity.len()];
         if lengths(pose) != lengths(&self.pose) {
             return wrong("lengths".into(), "differ from the scene's: make it with `Scene::pose` of the same scene");
@@ -290,7 +310,10 @@ impl GpuScene {
         }
         let before = std::mem::replace(&mut self.pose, pose.clone());
         let changed = before != *pose;
-        self.upload_placements(device, &before);
+        if self.traits.instanced {
+            let (top, _) = self.placements(&before);
+            folded::replace(device, encoder, &self.buffers.nodes.0, &top);
+        }
         self.buffers.analytic_lights_previous = self.buffers.analytic_lights.clone();
         if changed {
             self.revision += 1;
@@ -315,10 +338,9 @@ impl GpuScene {
     /// Bytes of GPU memory that the scene takes.
     pub fn memory(&self) -> u64 {
         let b = &self.buffers;
-        [&b.nodes, &b.triangles, &b.attributes, &b.texels, &b.instances, &b.materials, &b.lights]
-            .iter()
-            .map(|buffer| buffer.size())
-            .sum()
+        let texels = |t: &Texture| u64::from(t.width()) * u64::from(t.height()) * size_of::<Texel>() as u64;
+        let buffers = [&b.attributes, &b.texels, &b.materials, &b.lights];
+        texels(&b.nodes.0) + texels(&b.triangles.0) + buffers.iter().map(|b| b.size()).sum::<u64>()
     }
 
     /// Differs between any two scenes of a process, and after any change of the pose.
@@ -331,52 +353,46 @@ impl GpuScene {
         self.stack
     }
 
-    /// The buffer behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
-    pub(crate) fn buffer(&self, binding: &str) -> Option<&Buffer> {
+    /// What stands behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
+    pub(crate) fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
         let b = &self.buffers;
-        Some(match binding {
+        let buffer = match binding {
+            "nodes" => return Some(BindingResource::TextureView(&b.nodes.1)),
+            "triangles" => return Some(BindingResource::TextureView(&b.triangles.1)),
             "scene" => &b.scene,
-            "nodes" => &b.nodes,
-            "triangles" => &b.triangles,
             "attributes" => &b.attributes,
             "texels" => &b.texels,
-            "instances" => &b.instances,
             "materials" => &b.materials,
             "lights" => &b.lights,
             "analytic_lights" => &b.analytic_lights,
             "analytic_lights_previous" => &b.analytic_lights_previous,
             _ => return None,
-        })
+        };
+        Some(buffer.as_entire_binding())
     }
 
-    /// Uploads the top level and the instance records, with the placements of both poses; returns the top level's depth.
-    fn upload_placements(&mut self, device: &Device, before: &Pose) -> u32 {
-        let place = |pose: &Pose, i: &Instance| {
-            i.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
-        };
-        let mut words: Vec<[f32; 4]> = Vec::new();
-        let mut depth = 0;
-        if self.traits.instanced {
-            let boxes: Vec<_> =
-                self.instances.iter().map(|i| transform_box(place(&self.pose, i), i.bounds)).collect();
-            let top = bvh::over_instances(&boxes);
-            depth = top.depth;
-            words.extend_from_slice(bytemuck::cast_slice(&top.nodes));
+    /// The top level and the instances' records, with the placements of this pose and the one before, and the top level's
+    /// depth. Empty where there is one level.
+    fn placements(&mut self, before: &Pose) -> (Vec<Texel>, u32) {
+        if !self.traits.instanced {
+            return (Vec::new(), 0);
         }
-        self.header.instances = words.len() as u32;
+        let place =
+            |pose: &Pose, i: &Instance| i.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
+        let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(place(&self.pose, i), i.bounds)).collect();
+        let top = bvh::over_instances(&boxes);
+        let mut texels = folded::texels(&top.nodes).to_vec();
+        // As many nodes as any tree over these instances can have, so that the records stay where they are.
+        texels.resize(self.header.instances as usize, Texel::default());
         for instance in &self.instances {
             let now = place(&self.pose, instance);
             let mirrored = u32::from(now.determinant() < 0.0);
-            let numbers =
-                [instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored];
-            words.extend(rows(now));
-            words.extend(rows(inverse(now)));
-            words.extend(rows(place(before, instance)));
-            words.push(numbers.map(f32::from_bits));
+            texels.extend(rows(now));
+            texels.extend(rows(inverse(now)));
+            texels.extend(rows(place(before, instance)));
+            texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
         }
-        self.buffers.instances = storage(device, "instances", &words, 16);
-        self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
-        depth
+        (texels, top.depth)
     }
 
     fn upload_materials(&mut self, device: &Device) {
@@ -452,6 +468,29 @@ impl Emitter {
     }
 }
 
+/// Nodes of a top level over this many instances, at most: each inner node joins two.
+fn top_level_nodes(instances: usize) -> usize {
+    instances.saturating_sub(1).max(1)
+}
+
+/// Texels of the top level and the records, in whole rows.
+fn top_level_texels(instances: usize) -> usize {
+    (top_level_nodes(instances) * 4 + instances * 10).next_multiple_of(folded::WIDTH)
+}
+
+/// What is folded into a texture may fill as many rows as a texture has, and references number 2²⁷ triangles.
+fn check_texels(device: &Device, element: &str, texels: usize) -> Result<(), SceneError> {
+    let limit = device.limits().max_texture_dimension_2d;
+    if texels <= folded::WIDTH * limit as usize && texels / 3 < bvh::LARGEST_FIRST as usize {
+        return Ok(());
+    }
+    let reason = format!(
+        "take {texels} texels, a folded texture of the device has {}: use fewer, or raise max_texture_dimension_2d",
+        folded::WIDTH * limit as usize
+    );
+    Err(SceneError { file: "scene".into(), element: element.into(), reason })
+}
+
 fn check_size(device: &Device, element: &str, bytes: usize) -> Result<(), SceneError> {
     let limits = device.limits();
     let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
@@ -480,8 +519,8 @@ fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -
 }
 
 /// The three rows of an affine matrix.
-fn rows(m: Mat4) -> [[f32; 4]; 3] {
-    [m.row(0), m.row(1), m.row(2)].map(|r: Vec4| r.to_array())
+fn rows(m: Mat4) -> [Texel; 3] {
+    [m.row(0), m.row(1), m.row(2)].map(|r: Vec4| r.to_array().map(f32::to_bits))
 }
 
 /// The inverse, in double precision; a placement that flattens has none and is never hit: its inverse is taken as 0.
@@ -502,4 +541,29 @@ fn transform_box(m: Mat4, [low, high]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
     // Rounding in the transformation may not lose a hit on the box's face.
     let margin = (a.abs().max(b.abs())) * 4e-7;
     [(a - margin).to_array(), (b + margin).to_array()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::passes::Pass;
+    use crate::plan::{Feature, Features};
+    use crate::twins::layout::{assert_layout, assert_layout_in, fields};
+
+    #[test]
+    fn the_scene_lies_where_the_shaders_read_it() {
+        let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_texels,
+            environment_alias, environment_width, environment_height, attribute_stride, uv0 as "uv_first",
+            uv1 as "uv_second", environment_density);
+        assert_layout("Scene", header, size_of::<Header>());
+        let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, specular, cutoff,
+            base_color_texture, metallic_roughness_texture, emissive_texture);
+        assert_layout("Material", material, size_of::<GpuMaterial>());
+        let light = fields!(GpuLight: kind, alias as "alias_index", threshold, pmf, position, triangle, axis, instance,
+            intensity, range, spot_scale, spot_offset);
+        assert_layout("Light", light, size_of::<GpuLight>());
+        let analytic = fields!(AnalyticLight: position, kind, axis, range, intensity, spot_scale, spot_offset, count);
+        let blinn_phong = Features::of(&[Feature::BlinnPhong]);
+        assert_layout_in(Pass::Gradient, blinn_phong, "AnalyticLight", analytic, size_of::<AnalyticLight>());
+    }
 }

@@ -1,0 +1,166 @@
+//! Every shader that some scene and some settings can ask for compiles, within core WebGPU and the default limits, and asks
+//! for just the bindings that its step names.
+
+use crate::gpu::compose::{Permutation, Shaders};
+use crate::gpu::kernel::Kernel;
+use crate::passes::{self, Pass};
+use crate::plan::{Plan, Step, Traits};
+use crate::scene::{GpuScene, builtin};
+use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
+use crate::{Error, View};
+use std::collections::{BTreeMap, BTreeSet};
+use wgpu::{BackendOptions, Backends, Device, DeviceDescriptor, Instance, InstanceDescriptor, Queue, TextureFormat};
+
+/// Bound by name although no step lists them.
+const GIVEN: [&str; 5] = ["frame", "stride", "show", "analytic_lights", "analytic_lights_previous"];
+
+/// wgpu's validation without any GPU.
+fn noop_device() -> (Device, Queue) {
+    let noop = wgpu::NoopBackendOptions { enable: true, ..Default::default() };
+    let instance = Instance::new(InstanceDescriptor {
+        backends: Backends::NOOP,
+        backend_options: BackendOptions { noop, ..Default::default() },
+        ..InstanceDescriptor::new_without_display_handle()
+    });
+    let adapter = pollster::block_on(instance.request_adapter(&Default::default())).unwrap();
+    pollster::block_on(adapter.request_device(&DeviceDescriptor::default())).unwrap()
+}
+
+/// All combinations: at some 150 shaders a second they are checked in a quarter of a minute.
+fn traits() -> Vec<Traits> {
+    (0_u32..512)
+        .map(|bits| {
+            let bit = |i: u32| bits >> i & 1 == 1;
+            Traits {
+                instanced: bit(0),
+                textures: bit(1),
+                shading_normals: bit(2),
+                specular: bit(3),
+                alpha_mask: bit(4),
+                emitters: bit(5),
+                punctual_lights: bit(6),
+                environment: bit(7),
+                unlit: bit(8),
+            }
+        })
+        .collect()
+}
+
+fn product<A: Clone, B: Clone>(a: &[A], b: &[B]) -> Vec<(A, B)> {
+    a.iter().flat_map(|a| b.iter().map(|b| (a.clone(), b.clone()))).collect()
+}
+
+const GRADIENTS: [Gradient; 3] = [Gradient::Reshade, Gradient::BlinnPhong, Gradient::Off];
+const SAMPLINGS: [Sampling; 3] = [Sampling::Both, Sampling::Lights, Sampling::Scattered];
+const MODES: [Mode; 3] = [Mode::Denoise, Mode::Noisy, Mode::Reference];
+const TARGETS: [TextureFormat; 2] = [TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
+
+/// All filters that differ in what is compiled.
+fn filters() -> Vec<FilterSettings> {
+    let switches = |bits: u32| {
+        let on = |i: u32| bits >> i & 1 == 1;
+        FilterSettings {
+            history_ratio: on(0),
+            blend: if on(1) { Blend::Lambda } else { Blend::HistoryLength },
+            feedback: on(2),
+            variance: if on(3) { Variance::OfSample } else { Variance::OfMean },
+            stops: if on(4) { Stops::Classic } else { Stops::NoiseSubtracted },
+            kernel: if on(5) { crate::Kernel::Full } else { crate::Kernel::Diamond },
+            local_linear_fit: on(6),
+            iterations: if on(8) { 5 } else { 0 },
+            gradient_iterations: if on(9) { 3 } else { 0 },
+            ..Default::default()
+        }
+    };
+    product(&GRADIENTS, &(0..1 << 10).collect::<Vec<_>>())
+        .into_iter()
+        .map(|(gradient, bits)| FilterSettings { gradient, ..switches(bits) })
+        .collect()
+}
+
+/// Plans whose steps cover what is reachable: tracing depends on traits, sampling and gradient alone, filtering on the
+/// filter and on whether there are objects.
+fn plans() -> Vec<(Plan, Mode)> {
+    let mut plans = Vec::new();
+    for (traits, (sampling, gradient)) in product(&traits(), &product(&SAMPLINGS, &GRADIENTS)) {
+        for (mode, target) in product(&MODES, &TARGETS) {
+            let settings = Settings {
+                mode,
+                filter: FilterSettings { gradient, ..Default::default() },
+                tracer: TracerSettings { sampling, ..Default::default() },
+            };
+            plans.push((Plan::path_traced(&traits, &settings, target), mode));
+        }
+    }
+    for (instanced, filter) in product(&[false, true], &filters()) {
+        let settings = Settings { filter, ..Settings::adaptive() };
+        let traits = Traits { instanced, ..Default::default() };
+        plans.push((Plan::path_traced(&traits, &settings, TextureFormat::Rgba32Float), Mode::Denoise));
+    }
+    plans
+}
+
+/// Every different shader with a step that asks for it.
+fn steps() -> BTreeMap<Permutation, Step> {
+    let formats = [TextureFormat::Rgba8Unorm, TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
+    let mut steps = BTreeMap::new();
+    let mut add = |step: Step| {
+        let view = if step.pass == Pass::View { step.iteration } else { 0 };
+        steps.entry(Permutation { pass: step.pass, features: step.features, stack: 32, view }).or_insert(step);
+    };
+    for (plan, mode) in plans() {
+        for (view, format) in product(&View::ALL, &formats) {
+            match passes::view::step(view, &plan, mode, format) {
+                Ok(step) => add(step),
+                Err(Error::NoView { .. }) => {}
+                Err(e) => panic!("{e}"),
+            }
+        }
+        plan.steps.into_iter().for_each(&mut add);
+    }
+    steps
+}
+
+fn check(device: &Device, scene: &GpuScene, shaders: &mut Shaders, permutation: Permutation, step: &Step) {
+    let what = format!("{} with {:?}", permutation.pass.name(), permutation.features);
+    let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
+    let kernel = Kernel::new(device, shaders, permutation).unwrap_or_else(|e| panic!("{e}"));
+    if let Some(error) = pollster::block_on(scope.pop()) {
+        panic!("{what}: {error}");
+    }
+    let used: BTreeSet<&str> = kernel.names(0).filter(|n| !GIVEN.contains(n)).collect();
+    let named: BTreeSet<&str> = step.bindings.iter().map(|(name, _)| *name).collect();
+    assert_eq!(used, named, "{what}: what its shader uses, and what its step names");
+    for name in kernel.names(1).chain(kernel.names(0).filter(|n| n.starts_with("analytic"))) {
+        assert!(scene.resource(name).is_some(), "{what}: the scene has no `{name}`");
+    }
+}
+
+#[test]
+fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
+    let (device, queue) = noop_device();
+    let scene = GpuScene::new(&device, &queue, &builtin::scene("cornell", "static").unwrap()).unwrap();
+    let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
+    let steps = steps();
+    let mut counts = BTreeMap::<&str, usize>::new();
+    for (&permutation, step) in &steps {
+        check(&device, &scene, &mut shaders, permutation, step);
+        *counts.entry(permutation.pass.name()).or_default() += 1;
+    }
+    println!("{counts:?}");
+    assert_eq!(counts.len(), 12, "a pass is never run: {counts:?}");
+}
+
+#[test]
+fn every_stack_size_compiles() {
+    let (device, queue) = noop_device();
+    let scene = GpuScene::new(&device, &queue, &builtin::scene("pillars", "all").unwrap()).unwrap();
+    let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
+    let plan = Plan::path_traced(&scene.traits(), &Settings::adaptive(), TextureFormat::Rgba32Float);
+    for stack in [4, 64] {
+        for step in plan.steps.iter().filter(|s| matches!(s.pass, Pass::Visibility | Pass::Trace)) {
+            let permutation = Permutation { pass: step.pass, features: step.features, stack, view: 0 };
+            check(&device, &scene, &mut shaders, permutation, step);
+        }
+    }
+}

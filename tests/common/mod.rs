@@ -1,0 +1,7 @@
+//! What the GPU tests share.
+
+pub mod gpu;
+pub mod plane;
+pub mod scenes;
+pub mod stage;
+pub mod statistics;

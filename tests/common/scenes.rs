@@ -1,0 +1,40 @@
+//! Small scenes by hand.
+
+use asvgf::scene::{Light, LightKind, Material, Mesh, Node, Scene, Transform};
+
+/// A parallelogram whose front looks along u × v.
+pub fn quad(corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: usize) -> Mesh {
+    let at = |s: f32, t: f32| [0, 1, 2].map(|i| corner[i] + s * u[i] + t * v[i]);
+    Mesh {
+        positions: vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)],
+        uvs: [vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], Vec::new()],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        material,
+        ..Default::default()
+    }
+}
+
+/// A Lambertian surface.
+pub fn lambert(color: [f32; 3]) -> Material {
+    Material { base_color: [color[0], color[1], color[2], 1.0], ..Default::default() }
+}
+
+/// A surface that emits and reflects nothing.
+pub fn emitter(radiance: [f32; 3]) -> Material {
+    Material { emissive: radiance, ..lambert([0.0; 3]) }
+}
+
+/// Each mesh at the place that it was made for.
+pub fn scene(materials: Vec<Material>, meshes: Vec<Mesh>) -> Scene {
+    let nodes = (0..meshes.len()).map(|mesh| Node { meshes: vec![mesh], ..Default::default() }).collect();
+    Scene { materials, meshes, nodes, ..Default::default() }
+}
+
+/// Adds a light without area that shines down from a place.
+pub fn shine(scene: &mut Scene, kind: LightKind, intensity: [f32; 3], range: f32, from: [f32; 3]) {
+    scene.lights.push(Light { kind, intensity, range });
+    // A quarter turn about x takes −Z to −Y.
+    let half = std::f32::consts::FRAC_1_SQRT_2;
+    let transform = Transform::Trs { translation: from, rotation: [-half, 0.0, 0.0, half], scale: [1.0; 3] };
+    scene.nodes.push(Node { light: Some(scene.lights.len() - 1), transform, ..Default::default() });
+}

@@ -1,0 +1,125 @@
+//! A scene, a denoiser and a target, and the frames that go through them.
+
+use super::gpu::{Gpu, gpu};
+use super::statistics::Rgb;
+use asvgf::scene::{GpuScene, Pose, Scene, builtin};
+use asvgf::{Camera, Denoiser, DenoiserDescriptor, Error, Frame, Settings, View, ViewOptions};
+use wgpu::{CommandEncoder, TextureFormat, TextureView};
+
+/// Frames per second of animations.
+pub const RATE: f32 = 30.0;
+
+/// One denoiser at work.
+pub struct Stage {
+    pub gpu: &'static Gpu,
+    pub scene: Scene,
+    pub uploaded: GpuScene,
+    pub denoiser: Denoiser,
+    pub target: TextureView,
+    /// Number of the next frame.
+    pub index: u32,
+    /// Seen instead of the scene's camera.
+    pub camera: Option<Camera>,
+}
+
+impl Stage {
+    /// A stage for any scene.
+    pub fn new(scene: Scene, size: [u32; 2], settings: Settings) -> Self {
+        Self::on(gpu(), scene, size, settings)
+    }
+
+    /// A stage for a built-in scene.
+    pub fn built_in(name: &str, animation: &str, size: [u32; 2], settings: Settings) -> Self {
+        Self::new(builtin::scene(name, animation).expect("a built-in scene"), size, settings)
+    }
+
+    /// A stage on another device.
+    pub fn on(gpu: &'static Gpu, scene: Scene, size: [u32; 2], settings: Settings) -> Self {
+        let uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
+        let descriptor = DenoiserDescriptor { size, settings, timing: false };
+        let denoiser = Denoiser::new(&gpu.device, &gpu.queue, &descriptor).unwrap();
+        let target = gpu.target(size, TextureFormat::Rgba32Float);
+        Self { gpu, scene, uploaded, denoiser, target, index: 0, camera: None }
+    }
+
+    /// The pose of the animation at a frame.
+    pub fn pose_at(&self, index: u32) -> Pose {
+        self.scene.pose(Some(0), index as f32 / RATE)
+    }
+
+    /// The camera in a pose.
+    pub fn camera_in(&self, pose: &Pose) -> Camera {
+        if let Some(camera) = self.camera {
+            return camera;
+        }
+        let node = self.scene.camera_node().expect("a scene with a camera");
+        let view = self.scene.camera_view(pose, node).expect("a camera that sees");
+        Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] }
+    }
+
+    /// Records the next frame.
+    pub fn record(&mut self, encoder: &mut CommandEncoder) -> Result<(), Error> {
+        let pose = self.pose_at(self.index);
+        self.record_pose(encoder, &pose)
+    }
+
+    /// Records the next frame in a pose.
+    pub fn record_pose(&mut self, encoder: &mut CommandEncoder, pose: &Pose) -> Result<(), Error> {
+        self.uploaded.update(&self.gpu.device, encoder, pose).unwrap();
+        let camera = self.camera_in(pose);
+        let frame = Frame { scene: &self.uploaded, camera, index: self.index, target: &self.target };
+        self.denoiser.render(&self.gpu.device, encoder, &frame)?;
+        self.index += 1;
+        Ok(())
+    }
+
+    /// Renders the next frame.
+    pub fn frame(&mut self) -> &mut Self {
+        let pose = self.pose_at(self.index);
+        self.frame_in(&pose)
+    }
+
+    /// Renders the next frame in a pose.
+    pub fn frame_in(&mut self, pose: &Pose) -> &mut Self {
+        let gpu = self.gpu;
+        gpu.submit(|encoder| self.record_pose(encoder, pose)).unwrap();
+        self
+    }
+
+    /// Renders several frames.
+    pub fn frames(&mut self, count: u32) -> &mut Self {
+        for _ in 0..count {
+            self.frame();
+        }
+        self
+    }
+
+    /// Changes the size of the image.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        self.denoiser.resize(&self.gpu.device, size).unwrap();
+        self.target = self.gpu.target(size, TextureFormat::Rgba32Float);
+    }
+
+    /// What the target holds.
+    pub fn image(&self) -> Vec<Rgb> {
+        colors(&self.gpu.read(self.target.texture()))
+    }
+
+    /// An intermediate image of the last frame, as numbers.
+    pub fn view(&mut self, view: View) -> Vec<Rgb> {
+        let target = self.gpu.target(self.denoiser.size(), TextureFormat::Rgba32Float);
+        let gpu = self.gpu;
+        gpu.submit(|encoder| self.denoiser.show(&gpu.device, encoder, view, ViewOptions::default(), &target)).unwrap();
+        colors(&gpu.read(target.texture()))
+    }
+
+    /// The largest red channel of an intermediate image.
+    pub fn largest(&mut self, view: View) -> f32 {
+        self.view(view).iter().map(|c| c[0]).fold(f32::NEG_INFINITY, f32::max)
+    }
+}
+
+fn colors(bytes: &[u8]) -> Vec<Rgb> {
+    let channel = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+    bytes.chunks_exact(16).map(|t| [channel(&t[0..4]), channel(&t[4..8]), channel(&t[8..12])]).collect()
+}

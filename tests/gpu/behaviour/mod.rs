@@ -1,0 +1,8 @@
+//! What happens over frames.
+
+mod change;
+mod lifecycle;
+mod motion;
+mod recording;
+mod refusals;
+mod still;

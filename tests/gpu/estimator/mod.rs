@@ -1,0 +1,1 @@
+//! Whether the path tracer's mean is right, against closed forms.
