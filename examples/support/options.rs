@@ -22,7 +22,8 @@ Scene
                                                                         [cornell]
   --animation NAME      name or number (from 0) of an animation, or static
                                   [built-in scenes: all; files: the first, if any]
-  --environment FILE    light from all around: .hdr, .exr, .png or .jpg, equirectangular
+  --environment FILE    light from all around: .hdr, .exr, .png or .jpg, equirectangular;
+                        or sky, a cloudy one            [sky, if the scene has no light]
   --list                print scenes and animations, and what is in SCENE; render nothing
 
 Camera                                 [the file's own, else one that frames the scene]
