@@ -58,14 +58,16 @@ Output
   --out DIR             folder for everything; made if missing                   [out]
   --outputs LIST        which images, separated by commas, or all           [denoised]
                         denoised, noisy, albedo, normal, depth, triangle-id, motion,
-                        gradient, lambda, alpha, history-length, variance, non-finite
+                        gradient, lambda, alpha, history-length, variance, non-finite,
+                        rays
   --format LIST         png (tone-mapped), exr (numbers: linear radiance and the like
                         as 32-bit floats in R, G, B), or both as png,exr         [png]
   --exposure X          factor on radiance in PNG files                            [1]
   --reference SPP       also trace each frame with so many paths per pixel, unfiltered
-  --compare             end with comparison.png: noisy, constant alpha, adaptive alpha
-                        and reference (64 paths unless --reference says more or less)
-                        of the last frame, brightened if dark and no --exposure is given
+  --compare[=SPP]       end with comparison.png: noisy, constant alpha, adaptive alpha
+                        and reference (of so many paths, 64 if not said, or as many as
+                        --reference if that is more) of the last frame; brightened
+                        where it is dark, unless --exposure is given
   --explain             print what was compiled in, which passes ran, on which images
 
   -h, --help            print this
@@ -74,6 +76,9 @@ Files are named DIR/OUTPUT_FRAME.EXT, as in out/denoised_0031.png.
 A table of times goes to standard output, everything else to standard error.
 Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
+
+/// Paths per pixel of a comparison's reference, where no other number is said.
+const REFERENCE: u32 = 64;
 
 /// What is wrong with the command line.
 #[derive(Debug)]
@@ -140,7 +145,8 @@ pub struct Options {
     pub formats: Vec<Format>,
     pub exposure: Option<f32>,
     pub reference: Option<u32>,
-    pub compare: bool,
+    /// Paths per pixel of the comparison's reference.
+    pub compare: Option<u32>,
     pub explain: bool,
     pub list: bool,
 }
@@ -162,7 +168,7 @@ impl Default for Options {
             formats: vec![Format::Png],
             exposure: None,
             reference: None,
-            compare: false,
+            compare: None,
             explain: false,
             list: false,
         }
@@ -175,7 +181,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     let mut options = Options::default();
     if arguments.is_empty() {
         // The lamp of the built-in scenes comes back on in frame 60: the last frame but one.
-        options = Options { compare: true, start_frame: 30, ..options };
+        options = Options { compare: Some(REFERENCE), start_frame: 30, ..options };
     }
     let mut filter = Filter::default();
     let mut source = None;
@@ -195,7 +201,12 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         };
         match name.as_str() {
             "jitter" => options.jitter = true,
-            "compare" => options.compare = true,
+            "compare" => {
+                options.compare = match parser.optional_value() {
+                    Some(text) => Some(Value { text: text.string()?, option: name }.whole(1..=1_000_000)?),
+                    None => Some(REFERENCE),
+                };
+            }
             "explain" => options.explain = true,
             "list" => options.list = true,
             "environment" => options.environment = Some(parser.value()?.into()),
