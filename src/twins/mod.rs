@@ -19,5 +19,8 @@ mod random;
 mod traversal;
 
 mod atrous;
+mod gradient;
 mod packing;
 mod resolve;
+mod strata;
+mod variance;
