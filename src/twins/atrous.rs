@@ -1,9 +1,7 @@
 //! One spatial iteration: l̂(p) = Σ h·w·l(q) / Σ h·w.
 
 use super::bench::{Bench, SIZES, Texel};
-use super::codec::{
-    assert_close, depth, luminance, pack_tap, radiance, unpack_normal, unpack_rgb, unpack_tap,
-};
+use super::codec::{assert_close, depth, luminance, pack_tap, radiance, unpack_normal, unpack_rgb, unpack_tap};
 use super::plane::{V, add, dot, scale, sub};
 use super::random::Random;
 use crate::passes::atrous;
@@ -61,9 +59,8 @@ fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i
             let distance = dot(normal, sub(there, position)).abs() / (f64::from(f.sigma_depth) * z);
             let excess = (difference * difference - variance - variance.min(other)).max(0.0);
             let sigma = f64::from(f.sigma_luminance).powi(2);
-            let exponent = distance
-                + f64::from(f.sigma_normal) * (1.0 - cosine)
-                + excess / (sigma * (variance + other) + 1e-37);
+            let exponent =
+                distance + f64::from(f.sigma_normal) * (1.0 - cosine) + excess / (sigma * (variance + other) + 1e-37);
             (-exponent).exp()
         };
         taps.push((spline(dx) * spline(dy) * stop, [dx, dy].map(f64::from), color, other));

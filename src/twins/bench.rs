@@ -31,7 +31,8 @@ pub(super) struct Bench {
 
 impl Bench {
     pub fn new(size: [u32; 2], settings: Settings) -> Self {
-        let camera = Camera { eye: [0.2, 0.3, 4.0], target: [0.1, 0.0, 0.0], jitter: [0.2, -0.3], ..Default::default() };
+        let camera =
+            Camera { eye: [0.2, 0.3, 4.0], target: [0.1, 0.0, 0.0], jitter: [0.2, -0.3], ..Default::default() };
         Self { size, camera, previous: camera, index: 5, continued: true, settings }
     }
 
@@ -51,7 +52,8 @@ impl Bench {
             let texture = textures.get(name).unwrap_or_else(|| panic!("{:?} has no `{name}`", step.pass));
             write(texture, texels);
         }
-        let [frame, stride] = [bytemuck::bytes_of(&self.uniform()), &(1_i32 << step.iteration).to_le_bytes()].map(uniform);
+        let [frame, stride] =
+            [bytemuck::bytes_of(&self.uniform()), &(1_i32 << step.iteration).to_le_bytes()].map(uniform);
         let permutation = Permutation { pass: step.pass, features: step.features, stack: 4, view: 0 };
         let kernel = kernel(permutation);
         let views: BTreeMap<&str, _> = textures.iter().map(|(n, t)| (*n, t.create_view(&Default::default()))).collect();

@@ -5,14 +5,23 @@ use crate::gpu::compose::{Permutation, Shaders};
 use crate::passes::Pass;
 use crate::plan::Features;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
-use wgpu::{BindGroupDescriptor, BindGroupEntry, BufferUsages, ComputePipelineDescriptor, ShaderModuleDescriptor, ShaderSource};
+use wgpu::{
+    BindGroupDescriptor, BindGroupEntry, BufferUsages, ComputePipelineDescriptor, ShaderModuleDescriptor, ShaderSource,
+};
 
 /// Binds the numbers at 0 and as many results as asked for at 1, and starts an invocation for each of the numbers.
-pub(super) fn compute(source: &str, pass: Pass, features: Features, numbers: &[[f32; 4]], results: usize) -> Vec<[f32; 4]> {
+pub(super) fn compute(
+    source: &str,
+    pass: Pass,
+    features: Features,
+    numbers: &[[f32; 4]],
+    results: usize,
+) -> Vec<[f32; 4]> {
     let gpu = gpu();
     let device = &gpu.device;
     let permutation = Permutation { pass, features, stack: 4, view: 0 };
-    let module = Shaders::new().and_then(|mut s| s.compose_source(source, permutation)).unwrap_or_else(|e| panic!("{e}"));
+    let module =
+        Shaders::new().and_then(|mut s| s.compose_source(source, permutation)).unwrap_or_else(|e| panic!("{e}"));
     let module = device.create_shader_module(ShaderModuleDescriptor {
         label: Some("test"),
         source: ShaderSource::Naga(std::borrow::Cow::Owned(module)),

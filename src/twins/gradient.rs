@@ -96,8 +96,12 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
             let mut written = images.bench.run(&gradient_pairs_filter::step(Features::default(), iteration), &pairs);
             let inputs = [("samples", images.records.clone()), ("gradient", gradient.clone())];
             written.append(&mut images.bench.run(&gradient_filter::step(Features::default(), iteration), &inputs));
-            let outputs =
-                [("now_out", &now, 4), ("before_out", &before, 4), ("product_out", &product, 1), ("gradient_out", &gradient, 2)];
+            let outputs = [
+                ("now_out", &now, 4),
+                ("before_out", &before, 4),
+                ("product_out", &product, 1),
+                ("gradient_out", &gradient, 2),
+            ];
             for (x, y) in images.bench.strata() {
                 let i = images.bench.stratum(x, y).unwrap();
                 let taps = match images.records[i][0] {
@@ -107,12 +111,15 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
                 let weight: f64 = taps.iter().map(|t| t.1).sum::<f64>().max(1.0);
                 for (name, input, channels) in outputs {
                     for channel in 0..channels {
-                        let value = |&(tap, w): &(usize, f64)| (w * float(input[tap][channel]), float(input[tap][channel]));
+                        let value =
+                            |&(tap, w): &(usize, f64)| (w * float(input[tap][channel]), float(input[tap][channel]));
                         let expected = taps.iter().map(|t| value(t).0).sum::<f64>() / weight;
                         // Exponents are known to some 1e-4; whether a weight of e⁻⁸ is cut may differ: 1e-4 of the largest.
                         let largest = taps.iter().map(|t| value(t).1).fold(0.0, f64::max);
                         let found = float(written[name][i][channel]);
-                        assert_close(found, expected, 2e-4 * largest, || format!("{size:?} ({x}, {y}), {name}, {iteration}"));
+                        assert_close(found, expected, 2e-4 * largest, || {
+                            format!("{size:?} ({x}, {y}), {name}, {iteration}")
+                        });
                     }
                 }
             }
@@ -130,7 +137,11 @@ fn ratio(now: [f64; 4], before: [f64; 4], product: f64) -> [f64; 4] {
     let e = 0.05 * l_before;
     let r = (l + e) / (l_before + e);
     let variance = (now[3] - 2.0 * r * product + r * r * before[3]).max(0.0) / (90.0 * l_before * l_before);
-    let kept = if r == 1.0 { f64::from(u8::from(variance == 0.0)) } else { (1.0 - variance / (r - 1.0).powi(2).max(1e-9)).max(0.0) };
+    let kept = if r == 1.0 {
+        f64::from(u8::from(variance == 0.0))
+    } else {
+        (1.0 - variance / (r - 1.0).powi(2).max(1e-9)).max(0.0)
+    };
     let color = |i: usize| ((now[i] + e) / (before[i] + e)).clamp(r / 1.5, r * 1.5);
     [color(0), color(1), color(2), r].map(|q| (1.0 + (q - 1.0) * kept).clamp(0.25, 4.0))
 }
@@ -151,7 +162,11 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                     let now = before.map(|b| b * change * random.between(0.8, 1.25));
                     let (l, b) = (luminance(now), luminance(before));
                     let noise = random.between(1.0, 5.0);
-                    ([now[0], now[1], now[2], l * l * noise], [before[0], before[1], before[2], b * b * noise], l * b * noise)
+                    (
+                        [now[0], now[1], now[2], l * l * noise],
+                        [before[0], before[1], before[2], b * b * noise],
+                        l * b * noise,
+                    )
                 })
                 .collect();
             let texels = |f: &dyn Fn(&([f64; 4], [f64; 4], f64)) -> [f64; 4]| -> Vec<Texel> {
@@ -193,8 +208,11 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 let (now, before) = images.pair(x, y).map_or((0.0, 0.0), |(n, b)| (luminance(n), luminance(b)));
                 let before = before * if with_ratio { float(written["ratio_out"][i][3]) } else { 1.0 };
                 let larger = now.max(before);
-                let expected =
-                    if larger > 7.9e-31 { [(now - before).abs() * larger.powf(gamma_less_one(gamma)), larger.powf(gamma.into())] } else { [0.0; 2] };
+                let expected = if larger > 7.9e-31 {
+                    [(now - before).abs() * larger.powf(gamma_less_one(gamma)), larger.powf(gamma.into())]
+                } else {
+                    [0.0; 2]
+                };
                 // pow is exp2 of a product in f32: up to 10⁵ is 17 bits before the point.
                 assert_close(found[0], expected[0], 2e-5 * expected[1], || format!("{}: numerator", what()));
                 assert_close(found[1], expected[1], 2e-5 * expected[1], || format!("{}: denominator", what()));

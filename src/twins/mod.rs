@@ -20,7 +20,9 @@ mod traversal;
 
 mod atrous;
 mod gradient;
+mod gradient_sample;
 mod packing;
 mod resolve;
 mod strata;
+mod temporal;
 mod variance;

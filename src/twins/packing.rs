@@ -29,7 +29,8 @@ fn cases() -> Vec<Case> {
         })
         .collect();
     // What lies at an edge: nothing, one channel alone, the largest mantissa, powers of two, λ at its ends.
-    let edges = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1e-30], [1e30, 0.0, 1e29], [0.999_999_9; 3], [2.0; 3], [1e-36; 3]];
+    let edges =
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1e-30], [1e30, 0.0, 1e29], [0.999_999_9; 3], [2.0; 3], [1e-36; 3]];
     for (case, color) in cases.iter_mut().zip(edges) {
         case.color = color;
     }
@@ -69,7 +70,10 @@ fn every_format_keeps_what_it_promises() {
         for (i, &exact) in case.color.iter().enumerate() {
             let (back, x) = (f64::from(found[0][i]), f64::from(exact));
             // A step of 18 bits of the largest channel, rounded; below 2⁻¹⁰⁸, steps of the smallest exponent.
-            assert!((back - x).abs() <= largest * 2.0_f64.powi(-17) + 2.0_f64.powi(-126), "{back} for {x} of {largest}");
+            assert!(
+                (back - x).abs() <= largest * 2.0_f64.powi(-17) + 2.0_f64.powi(-126),
+                "{back} for {x} of {largest}"
+            );
             assert!(exact != 0.0 || back == 0.0, "zero became {back}");
             let (half, inside) = (f64::from(found[2][i]), (2.0_f64.powi(-30)..8.5e9).contains(&x));
             assert!(!inside || (half - x).abs() <= x * 2.0_f64.powi(-11), "16 bits: {half} for {x}");

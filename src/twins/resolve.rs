@@ -27,7 +27,9 @@ fn check(features: &[Feature], bright: f64) {
             let unfiltered = features.has(Feature::Unfiltered);
             let mut random = Random(9);
             let count = (size[0] * size[1]) as usize;
-            let mut texels = |f: &mut dyn FnMut(&mut Random) -> Texel| -> Vec<Texel> { (0..count).map(|_| f(&mut random)).collect() };
+            let mut texels = |f: &mut dyn FnMut(&mut Random) -> Texel| -> Vec<Texel> {
+                (0..count).map(|_| f(&mut random)).collect()
+            };
             let packed = |r: &mut Random| {
                 let [a, b] = pack_rgb(radiance(r).map(|c| c * bright));
                 [a, b, 0, 0]
@@ -40,7 +42,8 @@ fn check(features: &[Feature], bright: f64) {
             let emission = texels(&mut |r| packed(r));
             let before = texels(&mut |r| [0; 4].map(|_| word(10.0 * r.unit())));
             let step = resolve::step(features, (!unfiltered).then_some(Image::Color(0)));
-            let mut inputs = vec![(if unfiltered { "radiance" } else { "color" }, color.clone()), ("albedo", albedo.clone())];
+            let mut inputs =
+                vec![(if unfiltered { "radiance" } else { "color" }, color.clone()), ("albedo", albedo.clone())];
             if features.has(Feature::DirectEmission) {
                 inputs.push(("emission", emission.clone()));
             }
@@ -79,8 +82,14 @@ fn check(features: &[Feature], bright: f64) {
 #[test]
 fn every_way_of_putting_it_together() {
     use Feature::*;
-    let sets: [&[Feature]; 6] =
-        [&[], &[DirectEmission], &[Unfiltered], &[Unfiltered, DirectEmission], &[DirectEmission, TargetF16], &[Unfiltered, Accumulate, DirectEmission]];
+    let sets: [&[Feature]; 6] = [
+        &[],
+        &[DirectEmission],
+        &[Unfiltered],
+        &[Unfiltered, DirectEmission],
+        &[DirectEmission, TargetF16],
+        &[Unfiltered, Accumulate, DirectEmission],
+    ];
     for features in sets {
         check(features, 1.0);
     }
