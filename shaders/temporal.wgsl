@@ -210,7 +210,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         mean_before *= change.ratio.w;
         variance_before *= change.ratio.w * change.ratio.w;
 #endif
-        kept *= pow(1.0 - lambda, frame.history_power);
+        // Above 0, as pow(0, 0) may be anything and a power of 0 is to shorten nothing.
+        kept *= pow(max(1.0 - lambda, 1e-9), frame.history_power);
 #endif
 #ifdef BLEND_BY_LAMBDA
         // α' = (1 − λ)·α + λ, as the talk and the paper have it, and never less than what the shortened history asks for.

@@ -5,6 +5,10 @@
 
 pub use wgpu;
 
+// Helpers in tests/ that unit tests share with integration tests know the crate by its name.
+#[cfg(test)]
+extern crate self as asvgf;
+
 mod camera;
 mod denoiser;
 mod error;

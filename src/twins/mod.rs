@@ -1,9 +1,28 @@
 //! Tests of the shaders that need the crate's inside: each pass alone against its f64 twin on the CPU, the layout of what
 //! is uploaded, every permutation, and the traversal.
+//!
+//! Twins follow the documented equations in f64; they share no code with the shaders. Inputs are what the textures hold, so
+//! that only the arithmetic between loading and storing differs.
 
+mod bench;
+mod codec;
+mod compute;
+#[allow(dead_code)]
 #[path = "../../tests/common/gpu.rs"]
 mod gpu;
 pub(crate) mod layout;
 mod permutations;
+#[allow(dead_code)]
+#[path = "../../tests/common/plane.rs"]
+mod plane;
 mod random;
 mod traversal;
+
+mod atrous;
+mod gradient;
+mod gradient_sample;
+mod packing;
+mod resolve;
+mod strata;
+mod temporal;
+mod variance;

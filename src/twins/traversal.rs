@@ -257,7 +257,7 @@ fn check(name: &str, scene: &Scene, pose: &Pose) {
             assert_right(query, answer, &world, &what);
         }
         // The weights lead to the point on the ray.
-        if let Some(distance) = answer.distance {
+        if answer.distance.is_some() {
             let [u, v] = answer.weights;
             assert!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 + 1e-6, "{what}: weights {u}, {v}");
         }

@@ -1,0 +1,168 @@
+//! One spatial iteration: l̂(p) = Σ h·w·l(q) / Σ h·w.
+
+use super::bench::{Bench, SIZES, Texel};
+use super::codec::{assert_close, depth, luminance, pack_tap, radiance, unpack_normal, unpack_rgb, unpack_tap};
+use super::plane::{V, add, dot, scale, sub};
+use super::random::Random;
+use crate::passes::atrous;
+use crate::plan::{Feature, Features};
+use crate::{FilterSettings, Settings, Stops};
+
+/// What the documented formulas make of a pixel: colour, standard deviation, and the plain mean.
+fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i32, y: i32) -> (V, f64, V) {
+    let f = &bench.settings.filter;
+    let stride = 1 << iteration;
+    let guide = |i: usize| [image[i][2], image[i][3]];
+    let here = bench.at(x, y).unwrap();
+    let (normal, z) = (unpack_normal(guide(here)[0]), depth(guide(here)));
+    let (own, deviation) = unpack_tap(image[here]);
+    let position = bench.position(x, y, z);
+    let existing = |x: i32, y: i32| bench.at(x, y).filter(|&i| depth(guide(i)) > 0.0);
+    let mut variance = deviation * deviation;
+    if features.has(Feature::FirstIteration) {
+        // (1 2 1)² over the neighbours that exist.
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))) {
+            if let Some(i) = existing(x + dx, y + dy) {
+                let w = f64::from((2 - dx.abs()) * (2 - dy.abs()));
+                sum += w * unpack_tap(image[i]).1.powi(2);
+                weights += w;
+            }
+        }
+        variance = sum / weights;
+    }
+    let spline = |d: i32| [1.0, 2.0 / 3.0, 1.0 / 6.0][d.unsigned_abs() as usize];
+    // Taps: weight, offset in strides, colour, variance.
+    let mut taps = vec![(1.0, [0.0; 2], own, deviation * deviation)];
+    for (dx, dy) in (-2..=2).flat_map(|dy: i32| (-2..=2).map(move |dx: i32| (dx, dy))) {
+        let diamond = dx.abs() + dy.abs() <= 2;
+        if (dx, dy) == (0, 0) || !(diamond || features.has(Feature::FullKernel)) {
+            continue;
+        }
+        let Some(i) = existing(x + dx * stride, y + dy * stride) else { continue };
+        let (color, other_deviation) = unpack_tap(image[i]);
+        let other = other_deviation * other_deviation;
+        let cosine = dot(normal, unpack_normal(guide(i)[0]));
+        let difference = luminance(color) - luminance(own);
+        let far = depth(guide(i));
+        let stop = if features.has(Feature::ClassicStops) {
+            // ∇z·Δp of the tangent plane: d(1/z) is affine in the pixel, and so z's derivative is −z·(n·∂ray)/(n·ray).
+            let moved = sub(bench.ray(x + dx * stride, y + dy * stride), bench.ray(x, y));
+            let along = dot(normal, bench.ray(x, y));
+            let along = if along.abs() < 1e-4 { -1e-4 } else { along };
+            let change = (z * dot(normal, moved) / along).abs();
+            let exponent = (far - z).abs() / (f64::from(f.sigma_depth) * change + 1e-3 * z)
+                + difference.abs() / (f64::from(f.sigma_luminance) * variance.sqrt() + 1e-6 * luminance(own) + 1e-37);
+            cosine.clamp(0.0, 1.0).powf(f.sigma_normal.into()) * (-exponent).exp()
+        } else {
+            let there = bench.position(x + dx * stride, y + dy * stride, far);
+            let distance = dot(normal, sub(there, position)).abs() / (f64::from(f.sigma_depth) * z);
+            let excess = (difference * difference - variance - variance.min(other)).max(0.0);
+            let sigma = f64::from(f.sigma_luminance).powi(2);
+            let exponent =
+                distance + f64::from(f.sigma_normal) * (1.0 - cosine) + excess / (sigma * (variance + other) + 1e-37);
+            (-exponent).exp()
+        };
+        taps.push((spline(dx) * spline(dy) * stop, [dx, dy].map(f64::from), color, other));
+    }
+    let weight: f64 = taps.iter().map(|t| t.0).sum();
+    let mean = scale(taps.iter().fold([0.0; 3], |s, t| add(s, scale(t.2, t.0))), 1.0 / weight);
+    let spread = taps.iter().map(|t| t.0 * t.0 * t.3).sum::<f64>().sqrt() / weight;
+    let color = if features.has(Feature::LocalLinearFit) { fit(&taps, weight, mean, f.ridge.into()) } else { mean };
+    (color, spread, mean)
+}
+
+/// Weighted least squares of a plane with a ridge on its slopes, at the centre, within half and one and a half of the mean.
+fn fit(taps: &[(f64, [f64; 2], V, f64)], weight: f64, mean: V, ridge: f64) -> V {
+    let average = |g: &dyn Fn(&(f64, [f64; 2], V, f64)) -> f64| taps.iter().map(|t| t.0 * g(t)).sum::<f64>() / weight;
+    let m = [0, 1].map(|i| average(&|t| t.1[i]));
+    let covariance = |i: usize, j: usize| average(&|t| (t.1[i] - m[i]) * (t.1[j] - m[j]));
+    let (a, b, c) = (covariance(0, 0) + ridge, covariance(0, 1), covariance(1, 1) + ridge);
+    [0, 1, 2].map(|channel| {
+        let [x, y] = [0, 1].map(|i| average(&|t| (t.1[i] - m[i]) * (t.2[channel] - mean[channel])));
+        let determinant = a * c - b * b;
+        let slopes = [(c * x - b * y) / determinant, (a * y - b * x) / determinant];
+        let value = mean[channel] - slopes[0] * m[0] - slopes[1] * m[1];
+        value.clamp(0.5 * mean[channel], 1.5 * mean[channel])
+    })
+}
+
+fn check(settings: &Settings, features: &[Feature], iteration: u32) {
+    for size in SIZES {
+        let bench = Bench::new(size, settings.clone());
+        let mut random = Random(u64::from(size[0]) + 100 * u64::from(iteration));
+        let image: Vec<Texel> = bench
+            .guide(&mut random)
+            .into_iter()
+            .map(|g| match g {
+                [_, 0] => [0; 4],
+                // Deviations from none to far beyond the colour.
+                _ => pack_tap(radiance(&mut random), random.unit().powi(4) * 3.0, g),
+            })
+            .collect();
+        let step = atrous::step(Features::of(features), iteration);
+        let written = bench.run(&step, &[("color", image.clone())]);
+        for (x, y) in bench.pixels() {
+            let i = bench.at(x, y).unwrap();
+            let out = written["color_out"][i];
+            let what = || format!("{size:?} ({x}, {y}), {:?}, iteration {iteration}", step.features);
+            if image[i][3] == 0 {
+                assert_eq!(out, [0; 4], "{}: a miss", what());
+                continue;
+            }
+            assert_eq!(out[2..], image[i][2..], "{}: guide", what());
+            let (color, deviation, mean) = twin(&bench, step.features, iteration, &image, x, y);
+            let (found, spread) = unpack_tap(out);
+            for channel in 0..3 {
+                // Stored to 2⁻¹²; exponents of up to some ten, of which distances are differences of numbers a hundred times
+                // as large, are known to 1e-5 in f32; the plane's slopes add some of the mean's own error.
+                let tolerance = 1.5e-3 * mean[channel] + 1e-9;
+                assert_close(found[channel], color[channel], tolerance, || format!("{}: colour", what()));
+            }
+            assert_close(spread, deviation, 1.5e-3 * deviation + 1e-9, || format!("{}: deviation", what()));
+            if let Some(feedback) = written.get("feedback_out") {
+                let fed = unpack_rgb([feedback[i][0], feedback[i][1]]);
+                for channel in 0..3 {
+                    let tolerance = 1.5e-3 * mean[channel] + 1e-5 * color.into_iter().fold(0.0, f64::max) + 1e-9;
+                    assert_close(fed[channel], color[channel], tolerance, || format!("{}: feedback", what()));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_default_stops() {
+    use Feature::*;
+    let sets: [&[Feature]; 4] = [&[], &[LocalLinearFit], &[FullKernel], &[FullKernel, LocalLinearFit, Feedback]];
+    for features in sets {
+        for iteration in [0, 1, 3] {
+            check(&Settings::adaptive(), features, iteration);
+        }
+    }
+}
+
+#[test]
+fn the_published_stops() {
+    use Feature::*;
+    let sets: [&[Feature]; 3] =
+        [&[ClassicStops, FullKernel, Feedback], &[ClassicStops], &[ClassicStops, LocalLinearFit]];
+    for features in sets {
+        for iteration in [0, 2] {
+            check(&Settings::classic(), features, iteration);
+        }
+    }
+}
+
+#[test]
+fn other_numbers() {
+    let filter = FilterSettings {
+        sigma_luminance: 1.5,
+        sigma_depth: 0.05,
+        sigma_normal: 30.0,
+        ridge: 0.02,
+        stops: Stops::NoiseSubtracted,
+        ..Default::default()
+    };
+    check(&Settings { filter, ..Settings::adaptive() }, &[Feature::LocalLinearFit], 0);
+}

@@ -1,0 +1,138 @@
+//! Runs one pass on images that a test makes up.
+
+use super::gpu::gpu;
+use crate::gpu::compose::{Permutation, Shaders};
+use crate::gpu::frame::{FrameUniform, Moment};
+use crate::gpu::kernel::Kernel;
+use crate::gpu::textures::strata;
+use crate::plan::{Feature, Grid, Slot, Step};
+use crate::{Camera, Settings};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock};
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+use wgpu::{BindingResource, Buffer, BufferUsages, Extent3d, Texture, TextureFormat, TextureUsages};
+
+/// A texel as its words; those beyond its format's are not looked at.
+pub(super) type Texel = [u32; 4];
+
+/// Sizes with a pixel, with rows and columns that no workgroup or stratum fills.
+pub(super) const SIZES: [[u32; 2]; 3] = [[1, 1], [7, 5], [33, 17]];
+
+/// The frame around a pass.
+#[derive(Clone)]
+pub(super) struct Bench {
+    pub size: [u32; 2],
+    pub camera: Camera,
+    pub previous: Camera,
+    pub index: u32,
+    pub continued: bool,
+    pub settings: Settings,
+}
+
+impl Bench {
+    pub fn new(size: [u32; 2], settings: Settings) -> Self {
+        let camera =
+            Camera { eye: [0.2, 0.3, 4.0], target: [0.1, 0.0, 0.0], jitter: [0.2, -0.3], ..Default::default() };
+        Self { size, camera, previous: camera, index: 5, continued: true, settings }
+    }
+
+    pub fn grid(&self, grid: Grid) -> [u32; 2] {
+        match grid {
+            Grid::Pixels => self.size,
+            Grid::Strata => strata(self.size),
+        }
+    }
+
+    /// Runs a step on the images of its bindings; what is not given is zero. Returns the images that it wrote.
+    pub fn run(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
+        let gpu = gpu();
+        let textures: BTreeMap<&str, Texture> =
+            step.bindings.iter().map(|&(name, slot)| (name, self.texture(step, slot))).collect();
+        for (name, texels) in inputs {
+            let texture = textures.get(name).unwrap_or_else(|| panic!("{:?} has no `{name}`", step.pass));
+            write(texture, texels);
+        }
+        let [frame, stride] =
+            [bytemuck::bytes_of(&self.uniform()), &(1_i32 << step.iteration).to_le_bytes()].map(uniform);
+        let permutation = Permutation { pass: step.pass, features: step.features, stack: 4, view: 0 };
+        let kernel = kernel(permutation);
+        let views: BTreeMap<&str, _> = textures.iter().map(|(n, t)| (*n, t.create_view(&Default::default()))).collect();
+        let resource = |name: &str| match name {
+            "frame" => Some(frame.as_entire_binding()),
+            "stride" => Some(stride.as_entire_binding()),
+            _ => views.get(name).map(BindingResource::TextureView),
+        };
+        let groups = kernel.bind(&gpu.device, resource).unwrap_or_else(|name| panic!("nothing for `{name}`"));
+        let [width, height] = self.grid(step.grid);
+        gpu.submit(|encoder| {
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&kernel.pipeline);
+            pass.set_bind_group(0, &groups[0], &[]);
+            pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
+        });
+        let outputs = textures.iter().filter(|(name, _)| name.ends_with("_out"));
+        outputs.map(|(name, texture)| (*name, read(texture))).collect()
+    }
+
+    fn uniform(&self) -> FrameUniform {
+        let camera = |c: &Camera| c.uniform(self.size).unwrap_or_else(|e| panic!("{e}"));
+        let moment = Moment {
+            camera: camera(&self.camera),
+            previous: camera(&self.previous),
+            index: self.index,
+            continued: self.continued,
+        };
+        FrameUniform::new(self.size, &moment, &self.settings)
+    }
+
+    fn texture(&self, step: &Step, slot: Slot) -> Texture {
+        let (format, grid) = match slot {
+            Slot::Now(image) | Slot::Before(image) => (image.format(), image.grid()),
+            Slot::Target if step.features.has(Feature::TargetF16) => (TextureFormat::Rgba16Float, Grid::Pixels),
+            Slot::Target => (TextureFormat::Rgba32Float, Grid::Pixels),
+        };
+        let usage = TextureUsages::STORAGE_BINDING
+            | TextureUsages::TEXTURE_BINDING
+            | TextureUsages::COPY_SRC
+            | TextureUsages::COPY_DST;
+        gpu().texture(self.grid(grid), format, usage)
+    }
+}
+
+/// Kernels are compiled once for all tests.
+fn kernel(permutation: Permutation) -> &'static Kernel {
+    static KERNELS: OnceLock<Mutex<BTreeMap<Permutation, &'static Kernel>>> = OnceLock::new();
+    let mut kernels = KERNELS.get_or_init(Mutex::default).lock().unwrap_or_else(|e| e.into_inner());
+    kernels.entry(permutation).or_insert_with(|| {
+        let kernel = Shaders::new().and_then(|mut s| Kernel::new(&gpu().device, &mut s, permutation));
+        Box::leak(Box::new(kernel.unwrap_or_else(|e| panic!("{e}"))))
+    })
+}
+
+fn uniform(contents: &[u8]) -> Buffer {
+    let usage = BufferUsages::UNIFORM;
+    gpu().device.create_buffer_init(&BufferInitDescriptor { label: Some("test"), contents, usage })
+}
+
+fn words(texture: &Texture) -> usize {
+    texture.format().block_copy_size(None).map_or(0, |bytes| bytes as usize / 4)
+}
+
+fn write(texture: &Texture, texels: &[Texel]) {
+    let (width, height) = (texture.width(), texture.height());
+    assert_eq!(texels.len(), (width * height) as usize, "an image of another size");
+    let data: Vec<u32> = texels.iter().flat_map(|t| &t[..words(texture)]).copied().collect();
+    let bytes_per_row = Some(width * 4 * words(texture) as u32);
+    gpu().queue.write_texture(
+        texture.as_image_copy(),
+        bytemuck::cast_slice(&data),
+        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None },
+        Extent3d { width, height, depth_or_array_layers: 1 },
+    );
+}
+
+fn read(texture: &Texture) -> Vec<Texel> {
+    let data: Vec<u32> = bytemuck::pod_collect_to_vec(&gpu().read(texture));
+    let texel = |words: &[u32]| std::array::from_fn(|i| words.get(i).copied().unwrap_or(0));
+    data.chunks_exact(words(texture)).map(texel).collect()
+}

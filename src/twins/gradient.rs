@@ -1,0 +1,252 @@
+//! The gradient: pairs of radiances, their filter, λ's numerator and denominator, and their filter.
+
+use super::bench::{Bench, SIZES, Texel};
+use super::codec::{assert_close, float, luminance, pack_rgb, radiance, unpack_rgb, word};
+use super::plane::V;
+use super::random::Random;
+use crate::passes::{gradient, gradient_filter, gradient_pairs, gradient_pairs_filter};
+use crate::plan::{Feature, Features};
+use crate::{FilterSettings, Settings};
+
+struct Images {
+    bench: Bench,
+    records: Vec<Texel>,
+    radiance: Vec<Texel>,
+    before: Vec<Texel>,
+}
+
+impl Images {
+    fn new(size: [u32; 2], settings: Settings, seed: u64) -> Self {
+        let bench = Bench::new(size, settings);
+        let mut random = Random(seed);
+        let guide = bench.guide(&mut random);
+        let records = bench.records(&guide, &mut random);
+        let mut image = || -> Vec<Texel> {
+            let texel = |r: &mut Random| {
+                let [a, b] = pack_rgb(radiance(r));
+                [a, b, 0, 0]
+            };
+            (0..size[0] * size[1]).map(|_| texel(&mut random)).collect()
+        };
+        let (radiance, before) = (image(), image());
+        Self { bench, records, radiance, before }
+    }
+
+    /// Radiances now and before of a stratum's path.
+    fn pair(&self, x: i32, y: i32) -> Option<(V, V)> {
+        let record = self.records[self.bench.stratum(x, y).unwrap()];
+        if record[0] == 0 {
+            return None;
+        }
+        let (px, py) = Bench::sample_pixel(record, x, y);
+        let now = self.radiance[self.bench.at(px, py).unwrap()];
+        let before = self.before[self.bench.at((record[1] & 0xffff) as i32, (record[1] >> 16) as i32).unwrap()];
+        Some((unpack_rgb([now[0], now[1]]), unpack_rgb([before[0], before[1]])))
+    }
+}
+
+/// Random strata of four numbers, of very different sizes.
+fn numbers(count: usize, random: &mut Random) -> Vec<Texel> {
+    (0..count).map(|_| [0; 4].map(|_| word(10.0_f64.powf(random.between(-6.0, 4.0))))).collect()
+}
+
+#[test]
+fn pairs_are_what_one_path_brought_now_and_before() {
+    for size in SIZES {
+        let images = Images::new(size, Settings::adaptive(), 4);
+        let inputs = [
+            ("samples", images.records.clone()),
+            ("radiance", images.radiance.clone()),
+            ("radiance_previous", images.before.clone()),
+        ];
+        let written = images.bench.run(&gradient_pairs::step(Features::default()), &inputs);
+        for (x, y) in images.bench.strata() {
+            let i = images.bench.stratum(x, y).unwrap();
+            let (now, before) = images.pair(x, y).unwrap_or_default();
+            let (l, l_before) = (luminance(now), luminance(before));
+            let expected = [
+                ("now_out", [now[0], now[1], now[2], l * l]),
+                ("before_out", [before[0], before[1], before[2], l_before * l_before]),
+                ("product_out", [l * l_before, 0.0, 0.0, 0.0]),
+            ];
+            for (name, expected) in expected {
+                for (channel, expected) in expected.into_iter().enumerate() {
+                    let found = float(written[name][i][channel]);
+                    assert_close(found, expected, 1e-6 * expected, || format!("{size:?} ({x}, {y}), {name}"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn both_filters_are_weighted_means_over_the_same_surface() {
+    for size in SIZES {
+        for iteration in [0, 1, 2] {
+            let images = Images::new(size, Settings::adaptive(), 5);
+            let count = images.records.len();
+            let mut random = Random(6);
+            let [now, before, product, gradient] = [0; 4].map(|_| numbers(count, &mut random));
+            let pairs = [
+                ("samples", images.records.clone()),
+                ("now", now.clone()),
+                ("before", before.clone()),
+                ("product", product.clone()),
+            ];
+            let mut written = images.bench.run(&gradient_pairs_filter::step(Features::default(), iteration), &pairs);
+            let inputs = [("samples", images.records.clone()), ("gradient", gradient.clone())];
+            written.append(&mut images.bench.run(&gradient_filter::step(Features::default(), iteration), &inputs));
+            let outputs = [
+                ("now_out", &now, 4),
+                ("before_out", &before, 4),
+                ("product_out", &product, 1),
+                ("gradient_out", &gradient, 2),
+            ];
+            for (x, y) in images.bench.strata() {
+                let i = images.bench.stratum(x, y).unwrap();
+                let taps = match images.records[i][0] {
+                    0 => Vec::new(),
+                    _ => images.bench.strata_taps(&images.records, x, y, 1 << iteration),
+                };
+                let weight: f64 = taps.iter().map(|t| t.1).sum::<f64>().max(1.0);
+                for (name, input, channels) in outputs {
+                    for channel in 0..channels {
+                        let value =
+                            |&(tap, w): &(usize, f64)| (w * float(input[tap][channel]), float(input[tap][channel]));
+                        let expected = taps.iter().map(|t| value(t).0).sum::<f64>() / weight;
+                        // Exponents are known to some 1e-4; whether a weight of e⁻⁸ is cut may differ: 1e-4 of the largest.
+                        let largest = taps.iter().map(|t| value(t).1).fold(0.0, f64::max);
+                        let found = float(written[name][i][channel]);
+                        assert_close(found, expected, 2e-4 * largest, || {
+                            format!("{size:?} ({x}, {y}), {name}, {iteration}")
+                        });
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// ρ for red, green, blue and luminance, from the filtered pairs: a prior of 5 %, colour within 1½ of the luminance's, shrunk
+/// towards 1 by the ratio's own variance with 90 samples, within ¼…4.
+fn ratio(now: [f64; 4], before: [f64; 4], product: f64) -> [f64; 4] {
+    let [l, l_before] = [now, before].map(|p| luminance([p[0], p[1], p[2]]));
+    if l.max(l_before) <= 7.9e-31 || l_before <= 0.0 {
+        return [1.0; 4];
+    }
+    let e = 0.05 * l_before;
+    let r = (l + e) / (l_before + e);
+    let variance = (now[3] - 2.0 * r * product + r * r * before[3]).max(0.0) / (90.0 * l_before * l_before);
+    let kept = if r == 1.0 {
+        f64::from(u8::from(variance == 0.0))
+    } else {
+        (1.0 - variance / (r - 1.0).powi(2).max(1e-9)).max(0.0)
+    };
+    let color = |i: usize| ((now[i] + e) / (before[i] + e)).clamp(r / 1.5, r * 1.5);
+    [color(0), color(1), color(2), r].map(|q| (1.0 + (q - 1.0) * kept).clamp(0.25, 4.0))
+}
+
+#[test]
+fn the_gradient_is_what_the_ratio_does_not_explain() {
+    for size in SIZES {
+        for (gamma, with_ratio) in [(0.0, false), (0.5, false), (0.5, true), (1.0, true)] {
+            let filter = FilterSettings { gradient_gamma: gamma, ..Default::default() };
+            let images = Images::new(size, Settings { filter, ..Settings::adaptive() }, 8);
+            let mut random = Random(9);
+            let count = images.records.len();
+            // Filtered pairs that are alike, as a filter leaves them: means, and products with some noise.
+            let filtered: Vec<([f64; 4], [f64; 4], f64)> = (0..count)
+                .map(|_| {
+                    let before = [0; 3].map(|_| random.between(0.1, 1.0));
+                    let change = random.between(0.1, 3.0);
+                    let now = before.map(|b| b * change * random.between(0.8, 1.25));
+                    let (l, b) = (luminance(now), luminance(before));
+                    let noise = random.between(1.0, 5.0);
+                    (
+                        [now[0], now[1], now[2], l * l * noise],
+                        [before[0], before[1], before[2], b * b * noise],
+                        l * b * noise,
+                    )
+                })
+                .collect();
+            let texels = |f: &dyn Fn(&([f64; 4], [f64; 4], f64)) -> [f64; 4]| -> Vec<Texel> {
+                filtered.iter().map(|p| f(p).map(word)).collect()
+            };
+            let mut inputs = vec![
+                ("samples", images.records.clone()),
+                ("radiance", images.radiance.clone()),
+                ("radiance_previous", images.before.clone()),
+            ];
+            if with_ratio {
+                inputs.push(("now_filtered", texels(&|p| p.0)));
+                inputs.push(("before_filtered", texels(&|p| p.1)));
+                inputs.push(("product_filtered", texels(&|p| [p.2; 4])));
+            }
+            let features = if with_ratio { Features::of(&[Feature::HistoryRatio]) } else { Features::default() };
+            let written = images.bench.run(&gradient::step(features, 0), &inputs);
+            for (x, y) in images.bench.strata() {
+                let i = images.bench.stratum(x, y).unwrap();
+                let what = || format!("{size:?} ({x}, {y}), γ {gamma}, ratio {with_ratio}");
+                let rho = match images.pair(x, y) {
+                    Some(_) if with_ratio => {
+                        let (now, before, product) = filtered[i];
+                        // What the textures hold is f32.
+                        let narrow = |p: [f64; 4]| p.map(|v| f64::from(v as f32));
+                        ratio(narrow(now), narrow(before), f64::from(product as f32))
+                    }
+                    _ => [1.0; 4],
+                };
+                if with_ratio {
+                    for (channel, expected) in rho.into_iter().enumerate() {
+                        let found = float(written["ratio_out"][i][channel]);
+                        // The variance is a difference of products, divided by (ρ − 1)².
+                        let near = 1e-6 / (rho[3] - 1.0).abs().max(1e-3);
+                        assert_close(found, expected, 1e-4 + 20.0 * near, || format!("{}: ρ", what()));
+                    }
+                }
+                let found = [0, 1].map(|c| float(written["gradient_out"][i][c]));
+                let (now, before) = images.pair(x, y).map_or((0.0, 0.0), |(n, b)| (luminance(n), luminance(b)));
+                let before = before * if with_ratio { float(written["ratio_out"][i][3]) } else { 1.0 };
+                let larger = now.max(before);
+                let expected = if larger > 7.9e-31 {
+                    [(now - before).abs() * larger.powf(gamma_less_one(gamma)), larger.powf(gamma.into())]
+                } else {
+                    [0.0; 2]
+                };
+                // pow is exp2 of a product in f32: up to 10⁵ is 17 bits before the point.
+                assert_close(found[0], expected[0], 2e-5 * expected[1], || format!("{}: numerator", what()));
+                assert_close(found[1], expected[1], 2e-5 * expected[1], || format!("{}: denominator", what()));
+            }
+        }
+    }
+}
+
+fn gamma_less_one(gamma: f32) -> f64 {
+    f64::from(gamma) - 1.0
+}
+
+#[test]
+fn where_nothing_changed_the_ratio_is_exactly_one_and_the_gradient_exactly_zero() {
+    let mut images = Images::new([33, 17], Settings::adaptive(), 10);
+    images.before = images.radiance.clone();
+    let strata = images.bench.strata();
+    for (x, y) in &strata {
+        let i = images.bench.stratum(*x, *y).unwrap();
+        let (px, py) = Bench::sample_pixel(images.records[i], *x, *y);
+        // The same pixel before, so that both radiances are the same bits.
+        images.records[i][1] = px as u32 | (py as u32) << 16;
+    }
+    let same: Vec<Texel> = numbers(strata.len(), &mut Random(11));
+    let inputs = [
+        ("samples", images.records.clone()),
+        ("radiance", images.radiance.clone()),
+        ("radiance_previous", images.before.clone()),
+        ("now_filtered", same.clone()),
+        ("before_filtered", same.clone()),
+        ("product_filtered", same.iter().map(|t| [t[3]; 4]).collect()),
+    ];
+    let written = images.bench.run(&gradient::step(Features::of(&[Feature::HistoryRatio]), 0), &inputs);
+    assert!(written["ratio_out"].iter().flatten().all(|&w| w == 1.0_f32.to_bits()));
+    assert!(written["gradient_out"].iter().all(|t| t[0] == 0));
+    assert!(written["gradient_out"].iter().any(|t| t[1] != 0), "there was something to compare");
+}

@@ -1,0 +1,99 @@
+//! The packed formats lose no more than they promise.
+
+use super::compute::compute;
+use super::plane::{V, cross, dot, length, unit};
+use super::random::Random;
+use crate::passes::Pass;
+use crate::plan::Features;
+
+struct Case {
+    color: [f32; 3],
+    length: f32,
+    normal: V,
+    lambda: f32,
+    octahedral: u32,
+}
+
+fn cases() -> Vec<Case> {
+    let mut random = Random(1);
+    let mut cases: Vec<Case> = (0..20_000)
+        .map(|i| {
+            let scale = 10.0_f64.powf(random.between(-30.0, 30.0));
+            Case {
+                color: [0; 3].map(|_| (scale * random.unit()) as f32),
+                length: (1 + i % 30_000) as f32,
+                normal: random.direction(),
+                lambda: random.unit() as f32,
+                octahedral: (random.unit() * 4294967295.0) as u32,
+            }
+        })
+        .collect();
+    // What lies at an edge: nothing, one channel alone, the largest mantissa, powers of two, λ at its ends.
+    let edges =
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1e-30], [1e30, 0.0, 1e29], [0.999_999_9; 3], [2.0; 3], [1e-36; 3]];
+    for (case, color) in cases.iter_mut().zip(edges) {
+        case.color = color;
+    }
+    for (case, lambda) in cases.iter_mut().zip([0.0, 1.0, 1e-30, 0.5]) {
+        case.lambda = lambda;
+    }
+    for (i, case) in cases.iter_mut().take(6).enumerate() {
+        case.normal = [0, 1, 2].map(|axis| if axis == i / 2 { 1.0 - 2.0 * (i % 2) as f64 } else { 0.0 });
+    }
+    cases
+}
+
+/// Of the unfolded octahedron: x and y where z ≥ 0, folded over the edges |x| + |y| = 1 below.
+fn octahedral(bits: u32) -> V {
+    let [x, y] = [bits & 0xffff, bits >> 16].map(|b| f64::from(b) * 2.0 / 65535.0 - 1.0);
+    let z = 1.0 - x.abs() - y.abs();
+    if z >= 0.0 {
+        return unit([x, y, z]);
+    }
+    unit([(1.0 - y.abs()) * x.signum(), (1.0 - x.abs()) * y.signum(), z])
+}
+
+#[test]
+fn every_format_keeps_what_it_promises() {
+    let cases = cases();
+    let numbers: Vec<[f32; 4]> = cases
+        .iter()
+        .flat_map(|c| {
+            let [r, g, b] = c.color;
+            let [x, y, z] = c.normal.map(|n| n as f32);
+            [[r, g, b, c.length], [x, y, z, c.lambda], [f32::from_bits(c.octahedral), 0.0, 0.0, 0.0]]
+        })
+        .collect();
+    let results = compute(include_str!("packing.wgsl"), Pass::Resolve, Features::default(), &numbers, 5 * cases.len());
+    for (case, found) in cases.iter().zip(results.chunks_exact(5)) {
+        let largest = f64::from(case.color.into_iter().fold(0.0, f32::max));
+        for (i, &exact) in case.color.iter().enumerate() {
+            let (back, x) = (f64::from(found[0][i]), f64::from(exact));
+            // A step of 18 bits of the largest channel, rounded; below 2⁻¹⁰⁸, steps of the smallest exponent.
+            assert!(
+                (back - x).abs() <= largest * 2.0_f64.powi(-17) + 2.0_f64.powi(-126),
+                "{back} for {x} of {largest}"
+            );
+            assert!(exact != 0.0 || back == 0.0, "zero became {back}");
+            let (half, inside) = (f64::from(found[2][i]), (2.0_f64.powi(-30)..8.5e9).contains(&x));
+            assert!(!inside || (half - x).abs() <= x * 2.0_f64.powi(-11), "16 bits: {half} for {x}");
+            assert!(x < 8.5e9 || (half / 8.5e9 - 1.0).abs() < 1e-2, "16 bits: {half} for {x}");
+            assert!(x > 2.0_f64.powi(-30) || half <= 2.0_f64.powi(-30), "16 bits: {half} for {x}");
+            let (f16, normal) = (f64::from(found[4][i]), (6.2e-5..65000.0).contains(&x));
+            assert!(!normal || (f16 - x).abs() <= x * 2.0_f64.powi(-11), "f16: {f16} for {x}");
+            assert!(!normal || f16.to_bits() << 22 == 0, "f16: {f16} has more than 10 bits of mantissa");
+        }
+        let back = [found[1][0], found[1][1], found[1][2]].map(f64::from);
+        let angle = length(cross(back, case.normal)).atan2(dot(back, case.normal)).to_degrees();
+        assert!(angle <= 0.1 && (length(back) - 1.0).abs() < 2e-3, "{angle}° off: {back:?} for {:?}", case.normal);
+        assert_eq!(found[0][3], case.length, "a history of up to 32768 frames is exact");
+        let (lambda, exact) = (f64::from(found[1][3]), f64::from(case.lambda));
+        assert!(lambda >= exact - 1e-6 && lambda <= exact + 1.0 / 255.0 + 1e-6, "λ {lambda} for {exact}");
+        assert_eq!(lambda == 0.0, exact == 0.0, "λ is 0 only where it is");
+        let unfolded = octahedral(case.octahedral);
+        for (i, expected) in unfolded.into_iter().enumerate() {
+            // Cancellation in 1 − |x| − |y|, and the rounding of a square root.
+            assert!((f64::from(found[3][i]) - expected).abs() < 1e-6, "{:?} for {unfolded:?}", found[3]);
+        }
+    }
+}

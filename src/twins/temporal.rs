@@ -1,0 +1,410 @@
+//! Reprojection and blending.
+
+use super::bench::{Bench, SIZES, Texel};
+use super::codec::{
+    assert_close, depth, float, luminance, pack_rgb, radiance, unpack_normal, unpack_rgb, unpack_tap, word,
+};
+use super::plane::{Pinhole, V, add, dot, scale, sub};
+use super::random::Random;
+use super::strata::{CUT, Site, exponent};
+use super::variance::length_of;
+use crate::passes::temporal;
+use crate::plan::{Feature, Features, Image};
+use crate::{FilterSettings, Settings};
+
+/// Everything that the pass reads.
+struct Given {
+    bench: Bench,
+    features: Features,
+    guide: Vec<[u32; 2]>,
+    guide_before: Vec<[u32; 2]>,
+    motion: Vec<V>,
+    object: Vec<u32>,
+    object_before: Vec<u32>,
+    radiance: Vec<Texel>,
+    history: Vec<Texel>,
+    feedback: Vec<Texel>,
+    samples: Vec<Texel>,
+    gradient: Vec<Texel>,
+    ratio: Vec<Texel>,
+}
+
+/// What the formulas make of a pixel.
+#[derive(Debug, Default)]
+struct Blended {
+    color: V,
+    mean: f64,
+    variance: f64,
+    length: f64,
+    lambda: f64,
+    /// A threshold was so near that rounding may decide otherwise.
+    unsure: bool,
+    /// The largest numbers that went in: errors are relative to these.
+    largest: f64,
+}
+
+/// A history reprojected.
+#[derive(Default)]
+struct Before {
+    color: V,
+    mean: f64,
+    square: f64,
+    variance: f64,
+    length: f64,
+    weight: f64,
+}
+
+fn pack_guide(g: &[u32; 2]) -> Texel {
+    [g[0], g[1], 0, 0]
+}
+
+impl Given {
+    fn new(size: [u32; 2], features: &[Feature], settings: Settings, moving: bool) -> Self {
+        let mut bench = Bench::new(size, settings);
+        if moving {
+            bench.previous.eye[0] += 0.05;
+            bench.previous.jitter = [-0.4, 0.1];
+        }
+        let features = temporal::step(Features::of(features), None).features;
+        let mut random = Random(u64::from(size[0]) + u64::from(moving));
+        let guide = bench.guide(&mut random);
+        let now = bench.clone();
+        // The same planes as they were seen.
+        let was = Bench { camera: bench.previous, ..bench.clone() };
+        let guide_before = was.guide(&mut Random(99));
+        let motion =
+            bench.pixels().map(|(x, y)| now.motion(x, y, depth(guide[now.at(x, y).unwrap()]), &mut random)).collect();
+        let count = guide.len();
+        let mut each =
+            |f: &mut dyn FnMut(&mut Random) -> Texel| -> Vec<Texel> { (0..count).map(|_| f(&mut random)).collect() };
+        let color = |r: &mut Random| {
+            let [a, b] = pack_rgb(radiance(r));
+            [a, b, 0, 0]
+        };
+        let radiance_now = each(&mut |r| color(r));
+        let feedback = each(&mut |r| color(r));
+        let history = each(&mut |r| {
+            let length = 1.0 + 20.0 * r.unit().powi(2);
+            let [a, b] = if features.has(Feature::Feedback) { [word(r.unit()), 0] } else { pack_rgb(radiance(r)) };
+            [a, b, word(r.unit().powi(4)), word(length) & 0xffff_ff00 | 3]
+        });
+        let object = each(&mut |r| [u32::from(r.unit() < 0.1); 4]).iter().map(|t| t[0]).collect();
+        let object_before = each(&mut |r| [u32::from(r.unit() < 0.1); 4]).iter().map(|t| t[0]).collect();
+        let samples = bench.records(&guide, &mut random);
+        let gradient = samples
+            .iter()
+            .map(|_| match random.below(4) {
+                // Nothing to compare, no change, all changed, and more than all.
+                0 => [0; 4],
+                1 => [0, word(0.7), 0, 0],
+                2 => [word(1.1), word(1.0), 0, 0],
+                _ => [word(random.unit()), word(1.0), 0, 0],
+            })
+            .collect();
+        let ratio = samples.iter().map(|_| [0; 4].map(|_| word(random.between(0.25, 4.0)))).collect();
+        Self {
+            bench,
+            features,
+            guide,
+            guide_before,
+            motion,
+            object,
+            object_before,
+            radiance: radiance_now,
+            history,
+            feedback,
+            samples,
+            gradient,
+            ratio,
+        }
+    }
+
+    fn run(&self) -> std::collections::BTreeMap<&'static str, Vec<Texel>> {
+        let step = temporal::step(self.features, Some(Image::Gradient(0)));
+        let all = [
+            ("guide", self.guide.iter().map(pack_guide).collect()),
+            ("guide_previous", self.guide_before.iter().map(pack_guide).collect()),
+            ("motion", self.motion.iter().map(|m| [word(m[0]), word(m[1]), word(m[2]), 0]).collect()),
+            ("object", self.object.iter().map(|&o| [o; 4]).collect()),
+            ("object_previous", self.object_before.iter().map(|&o| [o; 4]).collect()),
+            ("radiance", self.radiance.clone()),
+            ("history_previous", self.history.clone()),
+            ("feedback_previous", self.feedback.clone()),
+            ("samples", self.samples.clone()),
+            ("gradient", self.gradient.clone()),
+            ("ratio", self.ratio.clone()),
+        ];
+        let used: Vec<_> =
+            all.into_iter().filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|b| b.0 == *n)).collect();
+        self.bench.run(&step, &used)
+    }
+
+    fn has(&self, feature: Feature) -> bool {
+        self.features.has(feature)
+    }
+
+    fn object_at(&self, objects: &[u32], i: usize) -> u32 {
+        if self.has(Feature::Objects) { objects[i] } else { 0 }
+    }
+
+    /// Adds a tap of the history, if it shows the same surface: within 1 % of the depth of its plane, 5 % away, 26° turned.
+    fn add_tap(
+        &self,
+        sum: &mut Before,
+        here: usize,
+        origin: V,
+        [x, y]: [i32; 2],
+        w: f64,
+        unsure: &mut bool,
+        largest: &mut f64,
+    ) {
+        let bench = &self.bench;
+        *unsure |= (w - 1e-4).abs() < 2e-5;
+        let Some(q) = bench.at(x, y).filter(|_| w >= 1e-4) else { return };
+        let z = depth(self.guide_before[q]);
+        if z == 0.0 || self.object_at(&self.object_before, q) != self.object_at(&self.object, here) {
+            return;
+        }
+        let previous = Bench { camera: bench.previous, ..bench.clone() };
+        let offset = sub(origin, previous.position(x, y, z));
+        let normal = unpack_normal(self.guide_before[q][0]);
+        let tests = [
+            0.01 - dot(normal, offset).abs() / z,
+            0.05 - dot(offset, offset).sqrt() / z,
+            dot(normal, unpack_normal(self.guide[here][0])) - 0.9,
+        ];
+        *unsure |= tests.iter().any(|t| t.abs() < 1e-5);
+        if tests.iter().any(|&t| t < 0.0) {
+            return;
+        }
+        let h = self.history[q];
+        let (color, mean) = if self.has(Feature::Feedback) {
+            (unpack_rgb([self.feedback[q][0], self.feedback[q][1]]), float(h[0]))
+        } else {
+            (unpack_rgb([h[0], h[1]]), luminance(unpack_rgb([h[0], h[1]])))
+        };
+        *largest = color.into_iter().fold(largest.max(mean), f64::max).max(float(h[2]).sqrt());
+        sum.color = add(sum.color, scale(color, w));
+        sum.mean += w * mean;
+        sum.square += w * mean * mean;
+        sum.variance += w * float(h[2]);
+        sum.length += w * length_of(h);
+        sum.weight += w;
+    }
+
+    /// The history of a pixel: bilinear, or else from a Gaussian over 4×4.
+    fn before(&self, i: usize, x: i32, y: i32, unsure: &mut bool, largest: &mut f64) -> Option<Before> {
+        let m = self.motion[i];
+        let [jx, jy] = self.bench.camera.jitter.map(f64::from);
+        let point = [f64::from(x) + m[0], f64::from(y) + m[1]];
+        let was = Pinhole::new(&self.bench.previous, self.bench.size);
+        let origin = add(was.eye, scale(was.ray(point[0] + 0.5 + jx, point[1] + 0.5 + jy), m[2]));
+        // A motion that is whole but for rounding does not reach the next pixel.
+        let corner = point.map(|p| (p + 1e-4).floor());
+        *unsure |= point.iter().any(|p| ((p + 1e-4) - (p + 1e-4).round()).abs() < 1e-5);
+        let f = [0, 1].map(|a| (point[a] - corner[a]).max(0.0));
+        let base = corner.map(|c| c as i32);
+        let mut sum = Before::default();
+        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let along = |d: i32, f: f64| if d == 0 { 1.0 - f } else { f };
+            let w = along(dx, f[0]) * along(dy, f[1]);
+            self.add_tap(&mut sum, i, origin, [base[0] + dx, base[1] + dy], w, unsure, largest);
+        }
+        *unsure |= (sum.weight - 0.01).abs() < 1e-4;
+        if sum.weight <= 0.01 {
+            sum = Before::default();
+            for (dx, dy) in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| (dx, dy))) {
+                let tap = [base[0] + dx, base[1] + dy];
+                let squared: f64 = [0, 1].map(|a| (f64::from(tap[a]) - point[a]).powi(2)).iter().sum();
+                self.add_tap(&mut sum, i, origin, tap, (-squared).exp(), unsure, largest);
+            }
+            *unsure |= (sum.weight - 0.01).abs() < 1e-4;
+        }
+        (sum.weight > 0.01).then(|| {
+            let s = 1.0 / sum.weight;
+            let mean = sum.mean * s;
+            let variance = sum.variance * s + (sum.square * s - mean * mean).max(0.0);
+            Before { color: scale(sum.color, s), mean, variance, length: sum.length * s, ..sum }
+        })
+    }
+
+    /// Ratio and λ interpolated between the strata around a pixel on its surface: 2×2, or else 4×4.
+    fn change(&self, i: usize, x: i32, y: i32, unsure: &mut bool) -> ([f64; 4], f64) {
+        let z = depth(self.guide[i]);
+        let here = Site { position: self.bench.position(x, y, z), normal: unpack_normal(self.guide[i][0]), depth: z };
+        let grid = [x, y].map(|p| (f64::from(p) + 0.5) / 3.0 - 0.5);
+        let base = grid.map(|g| g.floor() as i32);
+        let mut nearest = 0.0;
+        for ring in [0, 1] {
+            let (mut weights, mut lambda, mut ratio) = (0.0, 0.0, [0.0; 4]);
+            for (sx, sy) in
+                (-ring..=1 + ring).flat_map(|dy| (-ring..=1 + ring).map(move |dx| (base[0] + dx, base[1] + dy)))
+            {
+                let Some(s) = self.bench.stratum(sx, sy).filter(|&s| self.samples[s][0] != 0) else { continue };
+                let exponent = exponent(&here, &self.bench.site(self.samples[s], sx, sy), here.depth);
+                *unsure |= (exponent - CUT).abs() < 1e-2;
+                if exponent > CUT {
+                    continue;
+                }
+                let tent = [(sx, grid[0]), (sy, grid[1])].map(|(s, g)| (1.0 - (g - f64::from(s)).abs()).max(0.05));
+                let w = tent[0] * tent[1] * (-exponent).exp();
+                let [numerator, denominator] = [0, 1].map(|c| float(self.gradient[s][c]));
+                lambda += w * if denominator > 0.0 { (numerator / denominator).clamp(0.0, 1.0) } else { 0.0 };
+                for (sum, &r) in ratio.iter_mut().zip(&self.ratio[s]) {
+                    *sum += w * float(r);
+                }
+                weights += w;
+            }
+            *unsure |= (weights / 1e-4 - 1.0).abs() < 0.1;
+            // Whether what the nearest four had too little of counts once or twice in the wider ring is not laid down.
+            *unsure |= ring == 1 && nearest > 0.0 && weights < 2000.0 * nearest;
+            if weights > if ring == 0 { 1e-4 } else { 0.0 } {
+                return (ratio.map(|r| r / weights), lambda / weights);
+            }
+            nearest = weights;
+        }
+        ([1.0; 4], 0.0)
+    }
+
+    fn twin(&self, x: i32, y: i32) -> Blended {
+        let i = self.bench.at(x, y).unwrap();
+        let f = &self.bench.settings.filter;
+        let sample = unpack_rgb([self.radiance[i][0], self.radiance[i][1]]);
+        let l = luminance(sample);
+        let mut out = Blended { color: sample, mean: l, length: 1.0, ..Default::default() };
+        out.largest = sample.into_iter().fold(l, f64::max);
+        let before = self.bench.continued.then(|| self.before(i, x, y, &mut out.unsure, &mut out.largest)).flatten();
+        let Some(mut before) = before else { return out };
+        let mut kept = before.length;
+        if self.has(Feature::Gradient) {
+            let (ratio, lambda) = self.change(i, x, y, &mut out.unsure);
+            out.lambda = lambda;
+            if self.has(Feature::HistoryRatio) {
+                before.color = [0, 1, 2].map(|c| before.color[c] * ratio[c]);
+                before.mean *= ratio[3];
+                before.variance *= ratio[3].powi(2);
+                out.largest *= 4.0;
+            }
+            kept *= (1.0 - lambda).powf(f.history_power.into());
+        }
+        let least = f64::from(f.alpha);
+        let mut alpha = if self.has(Feature::BlendByLambda) {
+            let base = least.max(1.0 / (before.length + 1.0));
+            ((1.0 - out.lambda) * base + out.lambda).max(1.0 / (kept + 1.0))
+        } else {
+            least.max(1.0 / (kept + 1.0))
+        };
+        out.length = (kept + 1.0).min(f.max_history.into());
+        let stratum = self.bench.stratum(x / 3, y / 3).unwrap();
+        if self.has(Feature::Reshade) && self.samples[stratum][0] as i32 == y % 3 * 3 + x % 3 + 1 {
+            // What repeats a path is not new: it only fills in for what λ drops.
+            alpha = out.lambda;
+            out.length = kept.max(1.0);
+        }
+        let deviation = l - before.mean;
+        out.color = add(scale(before.color, 1.0 - alpha), scale(sample, alpha));
+        out.mean = before.mean + alpha * deviation;
+        out.variance = (1.0 - alpha) * (before.variance + alpha * deviation * deviation);
+        out
+    }
+}
+
+impl Bench {
+    /// Where a surface that stands still was, in pixels, and how deep; now and then it moves, or comes from nowhere.
+    fn motion(&self, x: i32, y: i32, z: f64, random: &mut Random) -> V {
+        let [jx, jy] = self.camera.jitter.map(f64::from);
+        let was = Pinhole::new(&self.previous, self.size).project(self.position(x, y, z));
+        let extra = match random.below(10) {
+            0 => [random.between(-3.0, 3.0), random.between(-3.0, 3.0)],
+            1 => [-1e9, 0.0],
+            _ => [0.0; 2],
+        };
+        let moved = [was[0] - f64::from(x) - 0.5 - jx + extra[0], was[1] - f64::from(y) - 0.5 - jy + extra[1], was[2]];
+        // As the texture holds it; what stands still exactly has none.
+        moved.map(|m| if m.abs() < 1e-9 { 0.0 } else { f64::from(m as f32) })
+    }
+}
+
+fn check(features: &[Feature], settings: &Settings) {
+    let (mut compared, mut unsure, mut followed) = (0, 0, 0);
+    for (size, moving, continued) in
+        SIZES.into_iter().flat_map(|s| [(s, false, true), (s, true, true), (s, true, false)])
+    {
+        let mut given = Given::new(size, features, settings.clone(), moving);
+        given.bench.continued = continued;
+        let written = given.run();
+        for (x, y) in given.bench.pixels() {
+            let i = given.bench.at(x, y).unwrap();
+            let (history, tap) = (written["history_out"][i], written["color_out"][i]);
+            let what = || format!("{size:?} ({x}, {y}), moving {moving}, continued {continued}, {:?}", given.features);
+            if depth(given.guide[i]) == 0.0 {
+                assert_eq!((history, tap), ([0; 4], [0; 4]), "{}: a miss", what());
+                continue;
+            }
+            let expected = given.twin(x, y);
+            compared += 1;
+            if expected.unsure {
+                unsure += 1;
+                continue;
+            }
+            followed += usize::from(expected.length > 1.0);
+            let fed = given.has(Feature::Feedback);
+            let stored = if fed { written["feedback_out"][i] } else { history };
+            let stored = unpack_rgb([stored[0], stored[1]]);
+            // Weights between strata are known to 1e-4, and with them λ, which a power of up to ten multiplies.
+            let tolerance = 2e-3 * expected.largest + 1e-30;
+            for (found, expected) in stored.into_iter().zip(expected.color) {
+                assert_close(found, expected, tolerance, || format!("{}: colour", what()));
+            }
+            if fed {
+                assert_close(float(history[0]), expected.mean, tolerance, || format!("{}: mean", what()));
+            }
+            let variance = float(history[2]);
+            let squared = 4e-3 * expected.largest.powi(2) + 1e-30;
+            assert_close(variance, expected.variance, squared, || format!("{}: variance", what()));
+            // 15 bits of mantissa.
+            let length = length_of(history);
+            assert_close(length, expected.length, 2e-3 * expected.length, || format!("{}: length", what()));
+            let lambda = f64::from(history[3] & 0xff) / 255.0;
+            let above = lambda - expected.lambda;
+            assert!((-1e-3..1.0 / 255.0 + 1e-3).contains(&above), "{}: λ {lambda}, not {}", what(), expected.lambda);
+            assert_guides(&given, variance, length, stored, tap, i, &what);
+        }
+    }
+    println!("{features:?}: {compared} pixels, {followed} with a history, {unsure} at a threshold");
+    assert!(unsure * 10 <= compared && followed * 3 >= compared, "{features:?}: the test has lost its grip");
+}
+
+/// What the spatial filter gets follows from what was stored.
+fn assert_guides(given: &Given, variance: f64, n: f64, stored: V, tap: Texel, i: usize, what: &dyn Fn() -> String) {
+    let (color, deviation) = unpack_tap(tap);
+    for (found, expected) in color.into_iter().zip(stored) {
+        assert_close(found, expected, expected * 2.0_f64.powi(-11) + 1e-9, || format!("{}: tap", what()));
+    }
+    // Of a mean of n, with Bessel's correction while n is small (discontinuous at 8, where it is 8/7).
+    let bessel = if n < 8.0 { n / (n - 1.0).max(0.5) } else { 1.0 };
+    let guiding = if given.has(Feature::VarianceOfMean) { variance * bessel / n } else { variance };
+    if (n - 8.0).abs() > 1e-2 || !given.has(Feature::VarianceOfMean) {
+        // n is stored with 15 bits, used with 24; near 1, n − 1 is what counts, but not below ½.
+        assert_close(deviation, guiding.sqrt(), 2e-3 * guiding.sqrt() + 1e-9, || format!("{}: deviation", what()));
+    }
+    assert_eq!(tap[2..], given.guide[i], "{}: guide", what());
+}
+
+#[test]
+fn every_reachable_kind_of_blending() {
+    use Feature::*;
+    let power = |history_power| Settings {
+        filter: FilterSettings { history_power, max_history: 12.0, alpha: 0.1, ..Default::default() },
+        ..Settings::adaptive()
+    };
+    check(&[], &power(3.5));
+    check(&[VarianceOfMean], &power(3.5));
+    check(&[Objects, VarianceOfMean], &power(3.5));
+    check(&[Feedback, VarianceOfMean], &power(3.5));
+    check(&[Gradient, BlinnPhong, VarianceOfMean], &power(3.5));
+    check(&[Gradient, Reshade, VarianceOfMean, Objects], &power(1.0));
+    check(&[Gradient, Reshade, HistoryRatio, VarianceOfMean], &power(3.5));
+    check(&[Gradient, Reshade, BlendByLambda, Feedback], &power(2.0));
+    check(&[Gradient, Reshade, HistoryRatio, BlendByLambda, Feedback, VarianceOfMean, Objects], &power(0.0));
+}

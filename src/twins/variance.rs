@@ -1,0 +1,113 @@
+//! The variance of short histories, from 7×7 neighbours on the same surface.
+
+use super::bench::{Bench, SIZES, Texel};
+use super::codec::{
+    assert_close, depth, float, luminance, pack_rgb, radiance, unpack_normal, unpack_rgb, unpack_tap, word,
+};
+use super::plane::{dot, sub};
+use super::random::Random;
+use crate::Settings;
+use crate::passes::variance;
+use crate::plan::{Feature, Features};
+
+/// History length in the upper 24 bits of a float.
+pub(super) fn length_of(texel: Texel) -> f64 {
+    float(texel[3] & 0xffff_ff00)
+}
+
+fn mean_of(texel: Texel, features: Features) -> f64 {
+    if features.has(Feature::Feedback) { float(texel[0]) } else { luminance(unpack_rgb([texel[0], texel[1]])) }
+}
+
+/// The standard deviation that steers the luminance stop, and the scale of the numbers that it is a difference of.
+fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
+    let i = bench.at(x, y).unwrap();
+    let (normal, z, n) = (unpack_normal(guide[i][0]), depth(guide[i]), length_of(history[i]));
+    let position = bench.position(x, y, z);
+    let (mut first, mut second, mut weights) = (0.0, 0.0, 0.0);
+    let mut squares = 0.0;
+    for (dx, dy) in (-3..=3).flat_map(|dy| (-3..=3).map(move |dx| (dx, dy))) {
+        let Some(q) = bench.at(x + dx, y + dy).filter(|&q| depth(guide[q]) > 0.0) else { continue };
+        let distance = dot(normal, sub(bench.position(x + dx, y + dy, depth(guide[q])), position)).abs();
+        let exponent = distance / (0.02 * z) + 64.0 * (1.0 - dot(normal, unpack_normal(guide[q][0])));
+        if exponent > 8.0 {
+            continue;
+        }
+        let (w, mean) = ((-exponent).exp(), mean_of(history[q], features));
+        let second_moment = float(history[q][2]) + mean * mean;
+        first += w * mean;
+        second += w * second_moment;
+        squares = f64::max(squares, second_moment);
+        weights += w;
+    }
+    // E[m₂] − E[m]², where the second moments are the neighbours' own; four frames' worth of trust.
+    let spatial = (second / weights - (first / weights).powi(2)).max(0.0) * (4.0 / n).max(1.0);
+    if !features.has(Feature::VarianceOfMean) {
+        return (spatial.sqrt(), squares);
+    }
+    let own = float(history[i][2]) * n / (n - 1.0).max(0.5);
+    let trust = ((n - 1.0) / 3.0).clamp(0.0, 1.0);
+    (((spatial + trust * (own - spatial)) / n).sqrt(), squares)
+}
+
+#[test]
+fn short_histories_take_their_neighbours_variance() {
+    use Feature::*;
+    let sets: [&[Feature]; 4] = [&[], &[VarianceOfMean], &[Feedback], &[VarianceOfMean, Feedback]];
+    // With fireflies (10⁵) and without: beside one, nothing else counts.
+    for ((features, size), brightest) in
+        sets.into_iter().flat_map(|f| SIZES.map(|s| (f, s))).flat_map(|c| [(c, 1.0), (c, 1e9)])
+    {
+        let bench = Bench::new(size, Settings::adaptive());
+        let step = variance::step(Features::of(features));
+        let mut random = Random(12);
+        let guide = bench.guide(&mut random);
+        let texel = |g: &[u32; 2], random: &mut Random| -> Texel {
+            if depth(*g) == 0.0 {
+                return [0; 4];
+            }
+            let length = [1.0, 1.5, 2.0, 3.0, 3.75, 4.0, 20.0][random.below(7)];
+            let color = radiance(random).map(|c| c.min(brightest));
+            let [a, b] = if step.features.has(Feedback) { [word(luminance(color)), 0] } else { pack_rgb(color) };
+            [a, b, word(random.unit() * luminance(color).powi(2)), word(length) & 0xffff_ff00 | 77]
+        };
+        let history: Vec<Texel> = guide.iter().map(|g| texel(g, &mut random)).collect();
+        let feedback: Vec<Texel> = guide
+            .iter()
+            .map(|_| {
+                let [a, b] = pack_rgb(radiance(&mut random));
+                [a, b, 0, 0]
+            })
+            .collect();
+        let untouched = vec![[7_u32; 4]; guide.len()];
+        let mut inputs = vec![
+            ("guide", guide.iter().map(|g| [g[0], g[1], 0, 0]).collect()),
+            ("history", history.clone()),
+            ("color_out", untouched),
+        ];
+        if step.features.has(Feedback) {
+            inputs.push(("feedback", feedback.clone()));
+        }
+        let written = bench.run(&step, &inputs);
+        for (x, y) in bench.pixels() {
+            let i = bench.at(x, y).unwrap();
+            let (out, what) = (written["color_out"][i], || format!("{size:?} ({x}, {y}), {features:?}"));
+            let n = length_of(history[i]);
+            if n == 0.0 || n >= 4.0 {
+                assert_eq!(out, [7; 4], "{}: not its business", what());
+                continue;
+            }
+            assert_eq!(out[2..], guide[i], "{}: guide", what());
+            let source = if step.features.has(Feedback) { feedback[i] } else { history[i] };
+            let (color, deviation) = unpack_tap(out);
+            for (found, expected) in color.into_iter().zip(unpack_rgb([source[0], source[1]])) {
+                assert_close(found, expected, expected * 2.0_f64.powi(-11) + 1e-9, || format!("{}: colour", what()));
+            }
+            let (expected, squares) = twin(&bench, step.features, &guide, &history, x, y);
+            // Stored to 2⁻¹²; a neighbour of weight e⁻⁸ may be cut or not, and what is left of squares is as exact as they are.
+            let error = (deviation.powi(2) - expected.powi(2)).abs();
+            let allowed = 2e-3 * expected.powi(2) + 1e-3 * squares;
+            assert!(error <= allowed, "{}: deviation {deviation}, not {expected} (squares up to {squares})", what());
+        }
+    }
+}
