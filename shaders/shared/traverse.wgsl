@@ -36,7 +36,7 @@ fn intersect(origin: vec3<f32>, direction: vec3<f32>, a: vec3<f32>, edge_b: vec3
     let v = dot(direction, q) * inverse;
     let t = dot(edge_c, q) * inverse;
     // A degenerate triangle has determinant 0: no comparison with the infinities that follow is relied on.
-    let hit = determinant != 0.0 && u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < limit;
+    let hit = determinant != 0.0 && min(u, v) >= -1e-6 && u + v <= 1.000001 && t > 0.0 && t < limit;
     return vec3(select(MISS, t, hit), u, v);
 }
 
