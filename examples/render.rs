@@ -16,7 +16,7 @@ mod table;
 mod tone;
 
 use asvgf::scene::GpuScene;
-use asvgf::{Camera, Gradient, Settings, View, image_io};
+use asvgf::{Gradient, Settings, View, image_io};
 use compare::Tile;
 use film::Film;
 use gpu::Gpu;
@@ -27,9 +27,6 @@ use std::error::Error;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
-
-/// Paths per pixel of the comparison's reference, where the options name no other number.
-const REFERENCE: u32 = 64;
 
 fn main() -> ExitCode {
     let result = match options::parse(std::env::args_os().skip(1)) {
@@ -64,12 +61,14 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &stage.scene)?;
     let mut film = Film::new(&gpu, options.size, options.settings.clone())?;
     // The other kind of α, with the same noise.
-    let mut other = options.compare.then(|| Film::new(&gpu, options.size, other(&options.settings))).transpose()?;
-    let mut reference = Film::new(&gpu, options.size, reference_settings(&options.settings))?;
+    let mut other = options.compare.map(|_| Film::new(&gpu, options.size, other(&options.settings))).transpose()?;
+    let mut reference = (options.compare.or(options.reference))
+        .map(|_| Film::new(&gpu, options.size, reference_settings(&options.settings)))
+        .transpose()?;
 
     let bar = progress(options);
     let mut times = Vec::new();
-    let mut camera = Camera::default();
+    let mut truth = Vec::new();
     let last = options.start_frame + options.frames - 1;
     for frame in options.start_frame..=last {
         bar.set_message(format!("frame {frame} of {}…{last}", options.start_frame));
@@ -77,45 +76,35 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         scene.update(&gpu.device, &mut encoder, &pose)?;
         gpu.queue.submit([encoder.finish()]);
-        camera = stage.camera(&pose, frame);
+        let camera = stage.camera(&pose, frame);
         times.push(film.render(&scene, camera, frame).map_err(|e| blame(e, &options.viewpoint))?);
         bar.inc(options.settings.tracer.samples.into());
+        for &view in &options.outputs {
+            write(options, &mut film, view, frame)?;
+        }
         if let Some(other) = &mut other {
             other.render(&scene, camera, frame)?;
             bar.inc(options.settings.tracer.samples.into());
         }
-        for &view in &options.outputs {
-            write(options, &mut film, view, frame)?;
-        }
-        if let Some(paths) = options.reference {
-            let colors = reference.converge(&scene, camera, paths, |n| bar.inc(n.into()))?;
-            write_reference(options, &colors, frame)?;
+        let paths = if frame == last { options.compare.max(options.reference) } else { options.reference };
+        if let (Some(film), Some(paths)) = (&mut reference, paths) {
+            bar.set_message(format!("reference of frame {frame}"));
+            truth = film.converge(&scene, camera, paths, |paths| bar.inc(paths.into()))?;
+            if options.reference.is_some() {
+                write_reference(options, &truth, frame)?;
+            }
         }
     }
-    if let Some(mut other) = other {
-        bar.set_message("reference of the last frame");
-        let paths = options.reference.unwrap_or(REFERENCE);
-        let truth = reference.converge(&scene, camera, paths, |n| bar.inc(n.into()))?;
-        let (adaptive, constant) =
-            if is_constant(&options.settings) { (&mut other, &mut film) } else { (&mut film, &mut other) };
-        let samples = options.settings.tracer.samples;
-        let exposure = options.exposure.unwrap_or_else(|| compare::exposure(&truth));
-        let alpha = constant.denoiser.settings().filter.alpha;
-        let tiles = [
-            // Of the constant one: the adaptive one repeats some of the last frame's paths.
-            Tile { label: format!("noisy, {samples} spp"), colors: constant.numbers(View::Noisy)? },
-            Tile { label: format!("constant alpha {alpha}"), colors: constant.numbers(View::Denoised)? },
-            Tile { label: "adaptive alpha".into(), colors: adaptive.numbers(View::Denoised)? },
-            Tile { label: format!("reference, {paths} spp"), colors: truth },
-        ];
-        compare::write(&options.out.join("comparison.png"), options.size, &tiles, exposure)?;
+    if let Some(other) = &mut other {
+        write_comparison(options, &mut film, other, truth)?;
     }
     bar.finish_and_clear();
     if let Some(plan) = film.denoiser.plan().filter(|_| options.explain) {
         say(&table::plan(plan, &scene.traits()));
     }
-    say(&table::times(&times, options, &gpu));
-    let pictures = if options.compare { ", and comparison.png" } else { "" };
+    let rays = film.numbers(View::Rays)?.iter().map(|pixel| f64::from(pixel[0])).sum();
+    say(&table::times(&times, rays, options, &gpu));
+    let pictures = if options.compare.is_some() { ", and comparison.png" } else { "" };
     say(&format!("{} frames in {}{pictures}\n", options.frames, options.out.display()));
     Ok(())
 }
@@ -127,10 +116,11 @@ fn say(text: &str) {
 
 /// A bar that counts paths per pixel, as they take the time. It does not show where there is no terminal.
 fn progress(options: &Options) -> ProgressBar {
-    let films = if options.compare { 2 } else { 1 };
-    let per_frame = films * u64::from(options.settings.tracer.samples) + u64::from(options.reference.unwrap_or(0));
-    let once = if options.compare { u64::from(options.reference.unwrap_or(REFERENCE)) } else { 0 };
-    let bar = ProgressBar::new(u64::from(options.frames) * per_frame + once);
+    let [frames, paths] = [options.frames, options.settings.tracer.samples].map(u64::from);
+    let films = if options.compare.is_some() { 2 } else { 1 };
+    let reference = u64::from(options.reference.unwrap_or(0));
+    let last = u64::from(options.compare.unwrap_or(0)).max(reference);
+    let bar = ProgressBar::new(frames * films * paths + (frames - 1) * reference + last);
     let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {elapsed} gone, {eta} to go");
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
@@ -207,5 +197,28 @@ fn write_reference(options: &Options, colors: &[[f32; 3]], frame: u32) -> Result
             Format::Exr => image_io::write_exr_rgb(path, width, height, colors)?,
         }
     }
+    Ok(())
+}
+
+/// Writes the last frame of both kinds of α and the truth, side by side.
+fn write_comparison<'a>(
+    options: &Options,
+    film: &mut Film<'a>,
+    other: &mut Film<'a>,
+    truth: Vec<[f32; 3]>,
+) -> Result<(), Box<dyn Error>> {
+    let (adaptive, constant) = if is_constant(&options.settings) { (other, film) } else { (film, other) };
+    let samples = options.settings.tracer.samples;
+    let paths = options.compare.max(options.reference).unwrap_or(0);
+    let exposure = options.exposure.unwrap_or_else(|| compare::exposure(&truth));
+    let alpha = constant.denoiser.settings().filter.alpha;
+    let tiles = [
+        // Of the constant one: the adaptive one repeats some of the last frame's paths.
+        Tile { label: format!("noisy, {samples} spp"), colors: constant.numbers(View::Noisy)? },
+        Tile { label: format!("constant alpha {alpha}"), colors: constant.numbers(View::Denoised)? },
+        Tile { label: "adaptive alpha".into(), colors: adaptive.numbers(View::Denoised)? },
+        Tile { label: format!("reference, {paths} spp"), colors: truth },
+    ];
+    compare::write(&options.out.join("comparison.png"), options.size, &tiles, exposure)?;
     Ok(())
 }

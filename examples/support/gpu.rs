@@ -31,7 +31,12 @@ impl fmt::Display for NoGpu {
 impl Gpu {
     /// Asks for no more than every WebGPU device has, and for timestamps where there are any.
     pub fn new() -> Result<Self, NoGpu> {
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+        // OpenGL lacks storage textures of some of the formats; WGPU_BACKEND may still ask for it.
+        let backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+            backends,
+            ..wgpu::InstanceDescriptor::new_without_display_handle_from_env()
+        });
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()

@@ -14,15 +14,16 @@ Renders a path-traced scene, denoises it with A-SVGF and writes pictures.
 
 Usage: cargo run --release --example render -- [SCENE] [OPTIONS]
 
-Without any argument: 32 frames of the built-in scene `cornell`, and a comparison
-of noisy, constant-alpha, adaptive-alpha and converged pictures.
+Without any argument: frames 30 to 61 of the built-in scene `cornell`, and a comparison
+(--compare) of the last one, just after the lamp came back on.
 
 Scene
   SCENE                 a .gltf, .glb or .obj file, or a built-in scene: cornell, pillars
                                                                         [cornell]
   --animation NAME      name or number (from 0) of an animation, or static
                                   [built-in scenes: all; files: the first, if any]
-  --environment FILE    light from all around: .hdr, .exr, .png or .jpg, equirectangular
+  --environment FILE    light from all around: .hdr, .exr, .png or .jpg, equirectangular;
+                        or sky, a cloudy one            [sky, if the scene has no light]
   --list                print scenes and animations, and what is in SCENE; render nothing
 
 Camera                                 [the file's own, else one that frames the scene]
@@ -57,14 +58,16 @@ Output
   --out DIR             folder for everything; made if missing                   [out]
   --outputs LIST        which images, separated by commas, or all           [denoised]
                         denoised, noisy, albedo, normal, depth, triangle-id, motion,
-                        gradient, lambda, alpha, history-length, variance, non-finite
+                        gradient, lambda, alpha, history-length, variance, non-finite,
+                        rays
   --format LIST         png (tone-mapped), exr (numbers: linear radiance and the like
                         as 32-bit floats in R, G, B), or both as png,exr         [png]
   --exposure X          factor on radiance in PNG files                            [1]
   --reference SPP       also trace each frame with so many paths per pixel, unfiltered
-  --compare             end with comparison.png: noisy, constant alpha, adaptive alpha
-                        and reference (64 paths unless --reference says more or less)
-                        of the last frame, brightened if dark and no --exposure is given
+  --compare[=SPP]       end with comparison.png: noisy, constant alpha, adaptive alpha
+                        and reference (of so many paths, 64 if not said, or as many as
+                        --reference if that is more) of the last frame; brightened
+                        where it is dark, unless --exposure is given
   --explain             print what was compiled in, which passes ran, on which images
 
   -h, --help            print this
@@ -73,6 +76,9 @@ Files are named DIR/OUTPUT_FRAME.EXT, as in out/denoised_0031.png.
 A table of times goes to standard output, everything else to standard error.
 Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
+
+/// Paths per pixel of a comparison's reference, where no other number is said.
+const REFERENCE: u32 = 64;
 
 /// What is wrong with the command line.
 #[derive(Debug)]
@@ -139,7 +145,8 @@ pub struct Options {
     pub formats: Vec<Format>,
     pub exposure: Option<f32>,
     pub reference: Option<u32>,
-    pub compare: bool,
+    /// Paths per pixel of the comparison's reference.
+    pub compare: Option<u32>,
     pub explain: bool,
     pub list: bool,
 }
@@ -161,7 +168,7 @@ impl Default for Options {
             formats: vec![Format::Png],
             exposure: None,
             reference: None,
-            compare: false,
+            compare: None,
             explain: false,
             list: false,
         }
@@ -171,7 +178,11 @@ impl Default for Options {
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
-    let mut options = Options { compare: arguments.is_empty(), ..Default::default() };
+    let mut options = Options::default();
+    if arguments.is_empty() {
+        // The lamp of the built-in scenes comes back on in frame 60: the last frame but one.
+        options = Options { compare: Some(REFERENCE), start_frame: 30, ..options };
+    }
     let mut filter = Filter::default();
     let mut source = None;
     let mut parser = lexopt::Parser::from_args(arguments);
@@ -190,7 +201,12 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         };
         match name.as_str() {
             "jitter" => options.jitter = true,
-            "compare" => options.compare = true,
+            "compare" => {
+                options.compare = match parser.optional_value() {
+                    Some(text) => Some(Value { text: text.string()?, option: name }.whole(1..=1_000_000)?),
+                    None => Some(REFERENCE),
+                };
+            }
             "explain" => options.explain = true,
             "list" => options.list = true,
             "environment" => options.environment = Some(parser.value()?.into()),

@@ -5,6 +5,7 @@ use asvgf::Camera;
 use asvgf::scene::{self, Environment, Pose, Scene, Warning, builtin};
 use glam::Vec3;
 use std::error::Error;
+use std::path::Path;
 
 /// Frames per second of the animations.
 const RATE: f64 = 30.0;
@@ -29,7 +30,9 @@ impl Stage {
         if let Source::File(_) = &options.source {
             scene = choose_animation(scene, options.animation.as_deref())?;
         }
-        if let Some(file) = &options.environment {
+        if options.environment.as_deref() == Some(Path::new("sky")) {
+            scene.environment = Some(sky());
+        } else if let Some(file) = &options.environment {
             let (environment, warnings) = Environment::load(file)?;
             tell(&warnings);
             scene.environment = Some(environment);
@@ -140,7 +143,7 @@ fn sky() -> Environment {
         let polar = ((i / width) as f32 + 0.5) / height as f32 * std::f32::consts::PI;
         let direction = Vec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin());
         let (ground, horizon, zenith) = (Vec3::splat(0.2), Vec3::new(0.5, 0.53, 0.58), Vec3::new(0.7, 0.85, 1.1));
-        let above = direction.y.clamp(0.0, 1.0).sqrt();
+        let above = 1.0 - (1.0 - direction.y.clamp(0.0, 1.0)).powi(2);
         let below = (-direction.y * 4.0).clamp(0.0, 1.0);
         let glow = direction.dot(brightest).max(0.0).powi(8);
         (horizon.lerp(zenith, above).lerp(ground, below) + glow * Vec3::new(2.4, 2.2, 1.9)).to_array()

@@ -10,8 +10,8 @@ use std::fmt::Write as _;
 /// Frames that are not counted: shaders are compiled and caches filled during the first ones.
 const WARM_UP: usize = 3;
 
-/// Milliseconds per pass, medians over the frames.
-pub fn times(frames: &[PassTimes], options: &Options, gpu: &Gpu) -> String {
+/// Milliseconds per pass, medians over the frames; and the speed that goes with the `rays` of one frame.
+pub fn times(frames: &[PassTimes], rays: f64, options: &Options, gpu: &Gpu) -> String {
     let skipped = WARM_UP.min(frames.len().saturating_sub(1));
     let counted = &frames[skipped..];
     let Some(first) = counted.first() else { return String::new() };
@@ -41,18 +41,13 @@ pub fn times(frames: &[PassTimes], options: &Options, gpu: &Gpu) -> String {
     let [width, height] = options.size;
     let _ = writeln!(out, "Medians of {} frames of {width}×{height} after {skipped} to warm up.", counted.len());
     let _ = writeln!(out, "Measured by {clock}.");
-    let tracer = &options.settings.tracer;
-    let paths = f64::from(width) * f64::from(height) * f64::from(tracer.samples);
     let traced = typical(&["visibility", "trace"]) * 1e-3;
     if traced > 0.0 {
-        // A path has one ray from the eye; each of its surfaces sends one to a light and one onwards.
-        let rays = 1 + 2 * (u64::from(tracer.bounces) + 1);
-        let millions = paths / traced * 1e-6;
-        let most = millions * rays as f64;
+        let (million, speed) = (rays * 1e-6, rays * 1e-6 / traced);
         let _ = writeln!(
             out,
-            "{millions:.2} million paths/s through visibility and trace, of at most {rays} rays each (paths end early): \
-             less than {most:.1} million rays/s."
+            "{speed:.2} million rays/s in visibility and trace: the last frame's {million:.2} million were counted, shadow rays \
+             included."
         );
     }
     let adapter = &gpu.adapter;

@@ -20,6 +20,9 @@ struct Scene {
     uv_second: u32,
     // Solid-angle density of sampling a direction through the environment light, per unit of its luminance there.
     environment_density: f32,
+    // Grid of the boxes of the one tree, or of the top level.
+    grid_base: vec3<f32>,
+    grid_step: vec3<f32>,
 }
 
 @group(1) @binding(0) var<uniform> scene: Scene;
@@ -121,7 +124,7 @@ fn transform_normal(inverse: Placement, n: vec3<f32>) -> vec3<f32> {
 }
 
 fn instance_record(instance: u32, part: u32) -> Placement {
-    let first = scene.instances + instance * 10u + part * 3u;
+    let first = scene.instances + instance * 12u + part * 3u;
     return Placement(
         bitcast<vec4<f32>>(node_word(first)),
         bitcast<vec4<f32>>(node_word(first + 1u)),
@@ -141,8 +144,14 @@ fn previous_object_to_world(instance: u32) -> Placement {
     return instance_record(instance, 2u);
 }
 
+// Grid of the boxes of the instance's tree: where it begins, and its step.
+fn instance_grid(instance: u32) -> mat2x3<f32> {
+    let first = scene.instances + instance * 12u + 9u;
+    return mat2x3(bitcast<vec3<f32>>(node_word(first).xyz), bitcast<vec3<f32>>(node_word(first + 1u).xyz));
+}
+
 // Root node of the mesh's tree; the instance's first number in the visibility buffer; its first light; its mesh's first row
 // of the lookup table, doubled, plus 1 where the placement mirrors.
 fn instance_numbers(instance: u32) -> vec4<u32> {
-    return node_word(scene.instances + instance * 10u + 9u);
+    return node_word(scene.instances + instance * 12u + 11u);
 }

@@ -1,8 +1,8 @@
 #define_import_path asvgf::traverse
 
-#import asvgf::scene::{node_word, triangle_word, NO_TRIANGLE}
+#import asvgf::scene::{scene, node_word, triangle_word, NO_TRIANGLE}
 #ifdef INSTANCED
-#import asvgf::scene::{world_to_object, transform_point, transform_vector, instance_numbers}
+#import asvgf::scene::{world_to_object, transform_point, transform_vector, instance_numbers, instance_grid}
 #endif
 #ifdef ALPHA_MASK
 #import asvgf::texture::is_hole
@@ -25,29 +25,8 @@ struct Hit {
 // A distance that means a miss.
 const MISS: f32 = 3.0e38;
 
-// A direction component of zero would make 0·∞ in the slab test; 2⁻⁸⁰ is below anything that a ray of use can resolve.
-fn safe_inverse(d: vec3<f32>) -> vec3<f32> {
-    let tiny = vec3(8.3e-25);
-    return 1.0 / select(d, select(tiny, -tiny, d < vec3(0.0)), abs(d) < tiny);
-}
-
-// Entry distance into a box (slab method, Kay and Kajiya 1986), or `MISS`.
-fn enter_box(origin: vec3<f32>, inverse: vec3<f32>, low: vec3<f32>, high: vec3<f32>, limit: f32) -> f32 {
-    let a = (low - origin) * inverse;
-    let b = (high - origin) * inverse;
-    let near = min(a, b);
-    let far = max(a, b);
-    let t_near = max(max(near.x, near.y), max(near.z, 0.0));
-    // Widened by 3 ulp so that rounding never loses a hit on the box's own face (Ize 2013).
-    let t_far = min(min(far.x, far.y), min(far.z, limit)) * 1.0000004;
-    return select(MISS, t_near, t_near <= t_far);
-}
-
 // Möller and Trumbore 1997. Returns distance, u, v; a distance of `MISS` where there is no hit in (0, limit).
-fn intersect_triangle(origin: vec3<f32>, direction: vec3<f32>, triangle: u32, limit: f32) -> vec3<f32> {
-    let a = bitcast<vec3<f32>>(triangle_word(triangle * 3u).xyz);
-    let edge_b = bitcast<vec3<f32>>(triangle_word(triangle * 3u + 1u).xyz) - a;
-    let edge_c = bitcast<vec3<f32>>(triangle_word(triangle * 3u + 2u).xyz) - a;
+fn intersect(origin: vec3<f32>, direction: vec3<f32>, a: vec3<f32>, edge_b: vec3<f32>, edge_c: vec3<f32>, limit: f32) -> vec3<f32> {
     let p = cross(direction, edge_c);
     let determinant = dot(edge_b, p);
     let inverse = 1.0 / determinant;
@@ -61,6 +40,43 @@ fn intersect_triangle(origin: vec3<f32>, direction: vec3<f32>, triangle: u32, li
     return vec3(select(MISS, t, hit), u, v);
 }
 
+// A direction component of zero would make 0·∞ in the slab test; 2⁻⁸⁰ is below anything that a ray of use can resolve.
+fn safe_inverse(d: vec3<f32>) -> vec3<f32> {
+    let tiny = vec3(8.3e-25);
+    return 1.0 / select(d, select(tiny, -tiny, d < vec3(0.0)), abs(d) < tiny);
+}
+
+// What a ray needs for the boxes of one tree: a plane at place q of the tree's grid is at distance q·step + base.
+struct Slabs {
+    base: vec3<f32>,
+    step: vec3<f32>,
+}
+
+fn slabs(origin: vec3<f32>, direction: vec3<f32>, grid_base: vec3<f32>, grid_step: vec3<f32>) -> Slabs {
+    let inverse = safe_inverse(direction);
+    return Slabs((grid_base - origin) * inverse, grid_step * inverse);
+}
+
+// Entry distance into a child's box (slab method, Kay and Kajiya 1986), or `MISS`. The boxes were rounded outwards.
+fn enter_box(s: Slabs, child: vec4<u32>, limit: f32) -> f32 {
+    let low = vec3<f32>(vec3(child.x & 0xffffu, child.x >> 16u, child.y & 0xffffu));
+    let high = vec3<f32>(vec3(child.y >> 16u, child.z & 0xffffu, child.z >> 16u));
+    let a = low * s.step + s.base;
+    let b = high * s.step + s.base;
+    let near = min(a, b);
+    let far = max(a, b);
+    let t_near = max(max(near.x, near.y), max(near.z, 0.0));
+    let t_far = min(min(far.x, far.y), min(far.z, limit));
+    return select(MISS, t_near, t_near <= t_far);
+}
+
+fn intersect_triangle(origin: vec3<f32>, direction: vec3<f32>, triangle: u32, limit: f32) -> vec3<f32> {
+    let a = bitcast<vec3<f32>>(triangle_word(triangle * 3u).xyz);
+    let edge_b = bitcast<vec3<f32>>(triangle_word(triangle * 3u + 1u).xyz) - a;
+    let edge_c = bitcast<vec3<f32>>(triangle_word(triangle * 3u + 2u).xyz) - a;
+    return intersect(origin, direction, a, edge_b, edge_c, limit);
+}
+
 // References, as src/scene/bvh.rs makes them: an inner node's number, or a leaf: LEAF, its count and its first row.
 const LEAF: u32 = 0x80000000u;
 const COUNT_SHIFT: u32 = 27u;
@@ -72,7 +88,7 @@ const NOTHING: u32 = 0x80000000u;
 const TOP_LEVEL: u32 = 0x87ffffffu;
 
 // One loop for both kinds of query: down the tree to the nearest leaf, its triangles, the next node from the stack (Aila and
-// Laine 2009, "while-while"). A node holds the boxes of both children: (low, reference) and (high, unused) for each.
+// Laine 2009, "while-while"). A node is the boxes and references of both children.
 fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
     var hit = Hit(limit, NO_TRIANGLE, 0u, vec2(0.0));
     var stack: array<u32, #{STACK_SIZE}>;
@@ -82,23 +98,19 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
     var current = 0u;
     var origin = ray.origin;
     var direction = ray.direction;
-    var inverse = safe_inverse(direction);
+    var boxes = slabs(origin, direction, scene.grid_base, scene.grid_step);
 #ifdef INSTANCED
     var instance = NO_TRIANGLE;
 #endif
     loop {
         while current < LEAF {
-            let left_low = node_word(current * 4u);
-            let left_high = node_word(current * 4u + 1u);
-            let right_low = node_word(current * 4u + 2u);
-            let right_high = node_word(current * 4u + 3u);
-            let left = enter_box(
-                origin, inverse, bitcast<vec3<f32>>(left_low.xyz), bitcast<vec3<f32>>(left_high.xyz), hit.distance);
-            let right = enter_box(
-                origin, inverse, bitcast<vec3<f32>>(right_low.xyz), bitcast<vec3<f32>>(right_high.xyz), hit.distance);
+            let left_child = node_word(current * 2u);
+            let right_child = node_word(current * 2u + 1u);
+            let left = enter_box(boxes, left_child, hit.distance);
+            let right = enter_box(boxes, right_child, hit.distance);
             let swap = right < left;
-            let near = select(left_low.w, right_low.w, swap);
-            let far = select(right_low.w, left_low.w, swap);
+            let near = select(left_child.w, right_child.w, swap);
+            let far = select(right_child.w, left_child.w, swap);
             // The stack's top is written either way, and only kept where the farther child is to be visited too.
             let popped = stack[depth - 1u];
             let both = max(left, right) < MISS;
@@ -115,14 +127,15 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
             instance = NO_TRIANGLE;
             origin = ray.origin;
             direction = ray.direction;
-            inverse = safe_inverse(direction);
+            boxes = slabs(origin, direction, scene.grid_base, scene.grid_step);
         } else if instance == NO_TRIANGLE {
             instance = current & FIRST_MASK;
             let placement = world_to_object(instance);
             // Not normalised: distances stay those of world space.
             origin = transform_point(placement, ray.origin);
             direction = transform_vector(placement, ray.direction);
-            inverse = safe_inverse(direction);
+            let grid = instance_grid(instance);
+            boxes = slabs(origin, direction, grid[0], grid[1]);
             stack[depth] = TOP_LEVEL;
             depth += 1u;
             current = instance_numbers(instance).x;
@@ -156,7 +169,6 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
     }
     return hit;
 }
-
 fn closest_hit(ray: Ray) -> Hit {
     return traverse(ray, MISS, false);
 }

@@ -101,6 +101,7 @@ pub(super) struct Built {
     pub root: u32,
     pub first_row: u32,
     pub bounds: [[f32; 3]; 2],
+    pub grid: bvh::Quantization,
     /// Faces of the group that emit, in the order of their numbers, with their row.
     pub emitters: Vec<(u32, Face)>,
 }
@@ -131,7 +132,7 @@ impl Geometry {
         let first_row = self.rows.len() as u32;
         let root = self.first_node + self.nodes.len() as u32;
         let corners: Vec<_> = group.faces.iter().map(|f| f.corners.map(|p| p.to_array())).collect();
-        let Tree { nodes, order, depth, bounds } = bvh::over_triangles(&corners, root, first_row);
+        let Tree { nodes, order, depth, bounds, grid } = bvh::over_triangles(&corners, root, first_row);
         let mut emitters = Vec::new();
         for &index in &order {
             let face = group.faces[index as usize];
@@ -147,7 +148,7 @@ impl Geometry {
         }
         self.nodes.extend(nodes);
         self.depth = self.depth.max(depth);
-        Built { root, first_row, bounds, emitters }
+        Built { root, first_row, bounds, grid, emitters }
     }
 
     fn add_attributes(&mut self, mesh: &Mesh, face: &Face) {

@@ -1,6 +1,6 @@
 //! The scene on the GPU, laid out as shaders/shared/scene.wgsl reads it.
 
-use super::bvh;
+use super::bvh::{self, Quantization};
 use super::folded::{self, Texel};
 use super::geometry::{self, Geometry};
 use super::lights::{self, AnalyticLight, GpuLight};
@@ -20,6 +20,10 @@ const ANALYTIC_LIGHTS: usize = 64;
 
 /// Slots of the traversal's stack: no tree that obvhs builds over real geometry comes near.
 const LARGEST_STACK: u32 = 64;
+
+/// Texels of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
+const NODE_TEXELS: usize = 2;
+const RECORD_TEXELS: usize = 12;
 
 /// A [`Scene`] on the GPU: geometry and its trees once; placements, materials and lights of this frame and the last.
 ///
@@ -69,6 +73,7 @@ struct Instance {
     first_id: u32,
     first_light: u32,
     bounds: [[f32; 3]; 2],
+    grid: Quantization,
 }
 
 /// The triangles of one instance that share an emitting material, as the analytic gradient sees them.
@@ -106,6 +111,17 @@ struct Header {
     uv0: u32,
     uv1: u32,
     environment_density: f32,
+    grid_base: [f32; 3],
+    pad: u32,
+    grid_step: [f32; 3],
+    pad_too: u32,
+}
+
+impl Header {
+    fn set_grid(&mut self, grid: Quantization) {
+        self.grid_base = grid.base;
+        self.grid_step = grid.step;
+    }
 }
 
 /// `Material` of scene.wgsl.
@@ -137,7 +153,7 @@ impl GpuScene {
         let instance_count: usize = groups.iter().map(|g| g.nodes.len().max(1)).sum();
         // The top level and the records come first, in rows of their own, as they are replaced when something moves.
         let top_texels = if instanced { top_level_texels(instance_count) } else { 0 };
-        let mut geometry = Geometry::new(scene, (top_texels / 4) as u32);
+        let mut geometry = Geometry::new(scene, (top_texels / NODE_TEXELS) as u32);
         let mut traits = geometry::traits(scene, geometry.layout);
         let mut instances = Vec::new();
         let mut light_table = Vec::new();
@@ -177,6 +193,7 @@ impl GpuScene {
                     first_id: next_id,
                     first_light,
                     bounds: built.bounds,
+                    grid: built.grid,
                 });
                 next_id += group.faces.len() as u32;
             }
@@ -197,7 +214,7 @@ impl GpuScene {
         let images = texels::add_images(&scene.images, &mut words);
         let layout = geometry.layout;
         let mut header = Header {
-            instances: top_level_nodes(instance_count) as u32 * 4,
+            instances: (top_level_nodes(instance_count) * NODE_TEXELS) as u32,
             instance_count: instances.len() as u32,
             environment_light: u32::MAX,
             attribute_stride: layout.stride as u32,
@@ -312,6 +329,7 @@ impl GpuScene {
         let changed = before != *pose;
         if self.traits.instanced {
             let (top, _) = self.placements(&before);
+            self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
             folded::replace(device, encoder, &self.buffers.nodes.0, &top);
         }
         self.buffers.analytic_lights_previous = self.buffers.analytic_lights.clone();
@@ -375,12 +393,14 @@ impl GpuScene {
     /// depth. Empty where there is one level.
     fn placements(&mut self, before: &Pose) -> (Vec<Texel>, u32) {
         if !self.traits.instanced {
+            self.header.set_grid(self.instances[0].grid);
             return (Vec::new(), 0);
         }
         let place =
             |pose: &Pose, i: &Instance| i.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
         let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(place(&self.pose, i), i.bounds)).collect();
         let top = bvh::over_instances(&boxes);
+        self.header.set_grid(top.grid);
         let mut texels = folded::texels(&top.nodes).to_vec();
         // As many nodes as any tree over these instances can have, so that the records stay where they are.
         texels.resize(self.header.instances as usize, Texel::default());
@@ -390,6 +410,8 @@ impl GpuScene {
             texels.extend(rows(now));
             texels.extend(rows(inverse(now)));
             texels.extend(rows(place(before, instance)));
+            texels.push(padded(instance.grid.base));
+            texels.push(padded(instance.grid.step));
             texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
         }
         (texels, top.depth)
@@ -475,7 +497,7 @@ fn top_level_nodes(instances: usize) -> usize {
 
 /// Texels of the top level and the records, in whole rows.
 fn top_level_texels(instances: usize) -> usize {
-    (top_level_nodes(instances) * 4 + instances * 10).next_multiple_of(folded::WIDTH)
+    (top_level_nodes(instances) * NODE_TEXELS + instances * RECORD_TEXELS).next_multiple_of(folded::WIDTH)
 }
 
 /// What is folded into a texture may fill as many rows as a texture has, and references number 2²⁷ triangles.
@@ -516,6 +538,10 @@ fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -
     } else {
         buffer(device, label, &vec![0; least], BufferUsages::STORAGE)
     }
+}
+
+fn padded(v: [f32; 3]) -> Texel {
+    [v[0].to_bits(), v[1].to_bits(), v[2].to_bits(), 0]
 }
 
 /// The three rows of an affine matrix.
