@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3A;
-use obvhs::{BvhBuildParams, aabb::Aabb, bvh2::Bvh2, bvh2::builder, triangle::Triangle};
+use obvhs::bvh2::{Bvh2, builder, node::Bvh2Node};
+use obvhs::{BvhBuildParams, aabb::Aabb, triangle::Triangle};
 use std::time::Duration;
 
 /// A node as the shader reads it: the boxes of its two children (Aila and Laine 2009), each with its reference.
@@ -100,7 +101,39 @@ pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_r
     // Without pre-splitting, so that each triangle has one row and one id.
     let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() };
     let bvh = builder::build_bvh2_from_tris(&triangles, params, &mut Duration::default());
-    lay_out(&bvh, triangles.len(), first_node, Leaves::Triangles(first_row))
+    let tree = lay_out(&bvh, triangles.len(), first_node, Leaves::Triangles(first_row));
+    if tree.depth <= DEEPEST {
+        return tree;
+    }
+    let halved = halve(&triangles, tree.order);
+    lay_out(&halved, triangles.len(), first_node, Leaves::Triangles(first_row))
+}
+
+/// Levels of a tree over triangles beyond which it is built otherwise: real geometry needs some thirty, and a traversal's stack
+/// holds 64.
+const DEEPEST: u32 = 48;
+
+/// A tree that halves its triangles at each level, whatever they look like: obvhs makes a chain of those that coincide.
+fn halve(triangles: &[Triangle], order: Vec<u32>) -> Bvh2 {
+    let bounds = |run: &[u32]| {
+        run.iter().map(|&i| triangles[i as usize].aabb()).fold(Aabb::empty(), |all, next| all.union(&next))
+    };
+    let mut nodes = vec![Bvh2Node::new(bounds(&order), order.len() as u32, 0)];
+    let mut pending = vec![0];
+    while let Some(index) = pending.pop() {
+        let (first, count) = (nodes[index].first_index as usize, nodes[index].prim_count as usize);
+        if count <= LEAF_TRIANGLES as usize {
+            continue;
+        }
+        nodes[index].prim_count = 0;
+        nodes[index].first_index = nodes.len() as u32;
+        let middle = first + count / 2;
+        for run in [first..middle, middle..first + count] {
+            pending.push(nodes.len());
+            nodes.push(Bvh2Node::new(bounds(&order[run.clone()]), run.len() as u32, run.start as u32));
+        }
+    }
+    Bvh2 { nodes, primitive_indices: order, ..Default::default() }
 }
 
 /// A tree over the world-space boxes of instances, one per leaf.
@@ -157,7 +190,7 @@ fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tr
     }
     if root.is_leaf() {
         // A ray may get to the other child too. The same again does no harm.
-        tree.nodes[0].children[1].reference = tree.nodes[0].children[0].reference;
+        tree.nodes[0].children[1] = tree.nodes[0].children[0];
     }
     tree
 }
@@ -195,9 +228,8 @@ mod tests {
                         let triangle = tree.order[(row - first_row) as usize] as usize;
                         seen[triangle] += 1;
                         for corner in corners[triangle] {
-                            for axis in 0..3 {
-                                assert!(low[axis] <= corner[axis].into() && f64::from(corner[axis]) <= high[axis]);
-                            }
+                            let inside = |axis: usize| (low[axis]..=high[axis]).contains(&f64::from(corner[axis]));
+                            assert!([0, 1, 2].into_iter().all(inside), "{corner:?} is outside {low:?}…{high:?}");
                         }
                     }
                 } else {

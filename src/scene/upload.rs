@@ -580,7 +580,7 @@ mod tests {
     fn the_scene_lies_where_the_shaders_read_it() {
         let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_texels,
             environment_alias, environment_width, environment_height, attribute_stride, uv0 as "uv_first",
-            uv1 as "uv_second", environment_density);
+            uv1 as "uv_second", environment_density, grid_base, grid_step);
         assert_layout("Scene", header, size_of::<Header>());
         let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, specular, cutoff,
             base_color_texture, metallic_roughness_texture, emissive_texture);

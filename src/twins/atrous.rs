@@ -32,8 +32,7 @@ fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i
         variance = sum / weights;
     }
     let spline = |d: i32| [1.0, 2.0 / 3.0, 1.0 / 6.0][d.unsigned_abs() as usize];
-    // Taps: weight, offset in strides, colour, variance.
-    let mut taps = vec![(1.0, [0.0; 2], own, deviation * deviation)];
+    let mut taps: Vec<Tap> = vec![(1.0, [0.0; 2], own, deviation * deviation)];
     for (dx, dy) in (-2..=2).flat_map(|dy: i32| (-2..=2).map(move |dx: i32| (dx, dy))) {
         let diamond = dx.abs() + dy.abs() <= 2;
         if (dx, dy) == (0, 0) || !(diamond || features.has(Feature::FullKernel)) {
@@ -72,9 +71,12 @@ fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i
     (color, spread, mean)
 }
 
+/// A tap: weight, offset in strides, colour, variance.
+type Tap = (f64, [f64; 2], V, f64);
+
 /// Weighted least squares of a plane with a ridge on its slopes, at the centre, within half and one and a half of the mean.
-fn fit(taps: &[(f64, [f64; 2], V, f64)], weight: f64, mean: V, ridge: f64) -> V {
-    let average = |g: &dyn Fn(&(f64, [f64; 2], V, f64)) -> f64| taps.iter().map(|t| t.0 * g(t)).sum::<f64>() / weight;
+fn fit(taps: &[Tap], weight: f64, mean: V, ridge: f64) -> V {
+    let average = |g: &dyn Fn(&Tap) -> f64| taps.iter().map(|t| t.0 * g(t)).sum::<f64>() / weight;
     let m = [0, 1].map(|i| average(&|t| t.1[i]));
     let covariance = |i: usize, j: usize| average(&|t| (t.1[i] - m[i]) * (t.1[j] - m[j]));
     let (a, b, c) = (covariance(0, 0) + ridge, covariance(0, 1), covariance(1, 1) + ridge);

@@ -127,6 +127,9 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
     }
 }
 
+/// Filtered pairs of a stratum: colour and l² now and before, l·l'.
+type Pairs = ([f64; 4], [f64; 4], f64);
+
 /// ρ for red, green, blue and luminance, from the filtered pairs: a prior of 5 %, colour within 1½ of the luminance's, shrunk
 /// towards 1 by the ratio's own variance with 90 samples, within ¼…4.
 fn ratio(now: [f64; 4], before: [f64; 4], product: f64) -> [f64; 4] {
@@ -155,7 +158,7 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
             let mut random = Random(9);
             let count = images.records.len();
             // Filtered pairs that are alike, as a filter leaves them: means, and products with some noise.
-            let filtered: Vec<([f64; 4], [f64; 4], f64)> = (0..count)
+            let filtered: Vec<Pairs> = (0..count)
                 .map(|_| {
                     let before = [0; 3].map(|_| random.between(0.1, 1.0));
                     let change = random.between(0.1, 3.0);
@@ -169,9 +172,8 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                     )
                 })
                 .collect();
-            let texels = |f: &dyn Fn(&([f64; 4], [f64; 4], f64)) -> [f64; 4]| -> Vec<Texel> {
-                filtered.iter().map(|p| f(p).map(word)).collect()
-            };
+            let texels =
+                |f: &dyn Fn(&Pairs) -> [f64; 4]| -> Vec<Texel> { filtered.iter().map(|p| f(p).map(word)).collect() };
             let mut inputs = vec![
                 ("samples", images.records.clone()),
                 ("radiance", images.radiance.clone()),

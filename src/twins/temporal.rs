@@ -43,6 +43,13 @@ struct Blended {
     largest: f64,
 }
 
+/// What is noted on the way, see [`Blended`].
+#[derive(Default)]
+struct Notes {
+    unsure: bool,
+    largest: f64,
+}
+
 /// A history reprojected.
 #[derive(Default)]
 struct Before {
@@ -148,18 +155,9 @@ impl Given {
     }
 
     /// Adds a tap of the history, if it shows the same surface: within 1 % of the depth of its plane, 5 % away, 26° turned.
-    fn add_tap(
-        &self,
-        sum: &mut Before,
-        here: usize,
-        origin: V,
-        [x, y]: [i32; 2],
-        w: f64,
-        unsure: &mut bool,
-        largest: &mut f64,
-    ) {
+    fn add_tap(&self, sum: &mut Before, here: usize, origin: V, [x, y]: [i32; 2], w: f64, notes: &mut Notes) {
         let bench = &self.bench;
-        *unsure |= (w - 1e-4).abs() < 2e-5;
+        notes.unsure |= (w - 1e-4).abs() < 2e-5;
         let Some(q) = bench.at(x, y).filter(|_| w >= 1e-4) else { return };
         let z = depth(self.guide_before[q]);
         if z == 0.0 || self.object_at(&self.object_before, q) != self.object_at(&self.object, here) {
@@ -173,7 +171,7 @@ impl Given {
             0.05 - dot(offset, offset).sqrt() / z,
             dot(normal, unpack_normal(self.guide[here][0])) - 0.9,
         ];
-        *unsure |= tests.iter().any(|t| t.abs() < 1e-5);
+        notes.unsure |= tests.iter().any(|t| t.abs() < 1e-5);
         if tests.iter().any(|&t| t < 0.0) {
             return;
         }
@@ -183,7 +181,7 @@ impl Given {
         } else {
             (unpack_rgb([h[0], h[1]]), luminance(unpack_rgb([h[0], h[1]])))
         };
-        *largest = color.into_iter().fold(largest.max(mean), f64::max).max(float(h[2]).sqrt());
+        notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(float(h[2]).sqrt());
         sum.color = add(sum.color, scale(color, w));
         sum.mean += w * mean;
         sum.square += w * mean * mean;
@@ -193,7 +191,7 @@ impl Given {
     }
 
     /// The history of a pixel: bilinear, or else from a Gaussian over 4×4.
-    fn before(&self, i: usize, x: i32, y: i32, unsure: &mut bool, largest: &mut f64) -> Option<Before> {
+    fn before(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> Option<Before> {
         let m = self.motion[i];
         let [jx, jy] = self.bench.camera.jitter.map(f64::from);
         let point = [f64::from(x) + m[0], f64::from(y) + m[1]];
@@ -201,24 +199,24 @@ impl Given {
         let origin = add(was.eye, scale(was.ray(point[0] + 0.5 + jx, point[1] + 0.5 + jy), m[2]));
         // A motion that is whole but for rounding does not reach the next pixel.
         let corner = point.map(|p| (p + 1e-4).floor());
-        *unsure |= point.iter().any(|p| ((p + 1e-4) - (p + 1e-4).round()).abs() < 1e-5);
+        notes.unsure |= point.iter().any(|p| ((p + 1e-4) - (p + 1e-4).round()).abs() < 1e-5);
         let f = [0, 1].map(|a| (point[a] - corner[a]).max(0.0));
         let base = corner.map(|c| c as i32);
         let mut sum = Before::default();
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
             let along = |d: i32, f: f64| if d == 0 { 1.0 - f } else { f };
             let w = along(dx, f[0]) * along(dy, f[1]);
-            self.add_tap(&mut sum, i, origin, [base[0] + dx, base[1] + dy], w, unsure, largest);
+            self.add_tap(&mut sum, i, origin, [base[0] + dx, base[1] + dy], w, notes);
         }
-        *unsure |= (sum.weight - 0.01).abs() < 1e-4;
+        notes.unsure |= (sum.weight - 0.01).abs() < 1e-4;
         if sum.weight <= 0.01 {
             sum = Before::default();
             for (dx, dy) in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| (dx, dy))) {
                 let tap = [base[0] + dx, base[1] + dy];
                 let squared: f64 = [0, 1].map(|a| (f64::from(tap[a]) - point[a]).powi(2)).iter().sum();
-                self.add_tap(&mut sum, i, origin, tap, (-squared).exp(), unsure, largest);
+                self.add_tap(&mut sum, i, origin, tap, (-squared).exp(), notes);
             }
-            *unsure |= (sum.weight - 0.01).abs() < 1e-4;
+            notes.unsure |= (sum.weight - 0.01).abs() < 1e-4;
         }
         (sum.weight > 0.01).then(|| {
             let s = 1.0 / sum.weight;
@@ -272,8 +270,9 @@ impl Given {
         let sample = unpack_rgb([self.radiance[i][0], self.radiance[i][1]]);
         let l = luminance(sample);
         let mut out = Blended { color: sample, mean: l, length: 1.0, ..Default::default() };
-        out.largest = sample.into_iter().fold(l, f64::max);
-        let before = self.bench.continued.then(|| self.before(i, x, y, &mut out.unsure, &mut out.largest)).flatten();
+        let mut notes = Notes { largest: sample.into_iter().fold(l, f64::max), ..Default::default() };
+        let before = self.bench.continued.then(|| self.before(i, x, y, &mut notes)).flatten();
+        (out.unsure, out.largest) = (notes.unsure, notes.largest);
         let Some(mut before) = before else { return out };
         let mut kept = before.length;
         if self.has(Feature::Gradient) {

@@ -6,3 +6,4 @@ mod motion;
 mod recording;
 mod refusals;
 mod still;
+mod views;
