@@ -118,48 +118,63 @@ struct Change {
     lambda: f32,
 }
 
+// Weighted sums over strata.
+struct Strata {
+    // ρ − 1, so that a ratio of exactly 1 stays so.
+    ratio: vec4<f32>,
+    weight: f32,
+    // Numerator and denominator of λ on the pixel's surface, and on any.
+    gradient: vec2<f32>,
+    around: vec2<f32>,
+}
+
 fn add_stratum(
-    sum: ptr<function, Change>,
+    sum: ptr<function, Strata>,
     stratum: vec2<i32>,
     grid: vec2<f32>,
     here: vec3<f32>,
     normal: vec3<f32>,
     depth: f32,
-) -> f32 {
+) {
     let clamped = clamp(stratum, vec2(0), vec2<i32>(frame.strata) - 1);
     let record = textureLoad(samples, clamped, 0);
     let s = site(record, clamped);
     let exponent = geometric_exponent(normal, s.position - here, s.normal, PLANE * depth);
     let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
-    let valid = in_grid(stratum) && record.x != 0u && exponent <= CUT;
-    let w = select(0.0, tent.x * tent.y * exp(-exponent), valid);
+    let near = select(0.0, tent.x * tent.y, in_grid(stratum) && record.x != 0u);
+    let w = select(0.0, near * exp(-exponent), exponent <= CUT);
     let g = textureLoad(gradient, clamped, 0).xy;
-    (*sum).lambda += w * clamp(g.x / max(g.y, 1e-30), 0.0, 1.0);
+    (*sum).gradient += w * g;
+    (*sum).around += near * g;
+    (*sum).weight += w;
 #ifdef HISTORY_RATIO
     (*sum).ratio += w * (textureLoad(ratio, clamped, 0) - 1.0);
 #endif
-    return w;
 }
 
-// Bilinear interpolation of the strata around a pixel, on the same surface; no change where there is none.
+// What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is on the
+// surface or none of their paths found light, which tells nothing. Where the 4×4 do not tell either, λ is what they saw on any
+// surface: on a thin pillar, what no stratum saw would else stay for a whole history.
 fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32) -> Change {
     let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;
     let base = vec2<i32>(floor(grid));
-    var sum = Change(vec4(0.0), 0.0);
-    var weights = 0.0;
+    var sum = Strata(vec4(0.0), 0.0, vec2(0.0), vec2(0.0));
     for (var i = 0; i < 4; i++) {
-        weights += add_stratum(&sum, base + vec2(i & 1, i >> 1u), grid, here, normal, depth);
+        add_stratum(&sum, base + vec2(i & 1, i >> 1u), grid, here, normal, depth);
     }
-    // Where none of the nearest four is on the surface, the 4×4; a loop of length 0 elsewhere, see `reproject`.
-    let searched = select(0, 16, weights <= 1e-4);
+    // A loop of length 0 elsewhere, see `reproject`.
+    let searched = select(0, 16, sum.weight <= 1e-4 || sum.gradient.y <= 0.0);
+    if searched > 0 {
+        sum = Strata(vec4(0.0), 0.0, vec2(0.0), vec2(0.0));
+    }
     for (var i = 0; i < searched; i++) {
-        weights += add_stratum(&sum, base + vec2(i & 3, i >> 2u) - 1, grid, here, normal, depth);
+        add_stratum(&sum, base + vec2(i & 3, i >> 2u) - 1, grid, here, normal, depth);
     }
-    let scale = select(0.0, 1.0 / weights, weights > 0.0);
-    // Interpolated as differences from 1, so that a ratio of exactly 1 stays so; λ may not exceed 1 by an ulp, as
-    // (1 − λ)^k would then be NaN.
-    return Change(1.0 + sum.ratio * scale, clamp(sum.lambda * scale, 0.0, 1.0));
+    let g = select(sum.around, sum.gradient, sum.gradient.y > 0.0);
+    let scale = select(0.0, 1.0 / sum.weight, sum.weight > 0.0);
+    // λ may not exceed 1 by an ulp, as (1 − λ)^k would then be NaN.
+    return Change(1.0 + sum.ratio * scale, clamp(g.x / max(g.y, 1e-37), 0.0, 1.0));
 }
 #endif
 

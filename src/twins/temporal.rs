@@ -100,12 +100,12 @@ impl Given {
         let samples = bench.records(&guide, &mut random);
         let gradient = samples
             .iter()
-            .map(|_| match random.below(4) {
+            .map(|_| match random.below(5) {
                 // Nothing to compare, no change, all changed, and more than all.
                 0 => [0; 4],
                 1 => [0, word(0.7), 0, 0],
                 2 => [word(1.1), word(1.0), 0, 0],
-                _ => [word(random.unit()), word(1.0), 0, 0],
+                _ => [word(0.6 * random.unit()), word(1.0), 0, 0],
             })
             .collect();
         let ratio = samples.iter().map(|_| [0; 4].map(|_| word(random.between(0.25, 4.0)))).collect();
@@ -226,42 +226,43 @@ impl Given {
         })
     }
 
-    /// Ratio and λ interpolated between the strata around a pixel on its surface: 2×2, or else 4×4.
+    /// Ratio and λ of the strata around a pixel on its surface: of the 2×2, or else of the 4×4; λ, where those saw no light, of
+    /// the 4×4 on any surface.
     fn change(&self, i: usize, x: i32, y: i32, unsure: &mut bool) -> ([f64; 4], f64) {
         let z = depth(self.guide[i]);
         let here = Site { position: self.bench.position(x, y, z), normal: unpack_normal(self.guide[i][0]), depth: z };
         let grid = [x, y].map(|p| (f64::from(p) + 0.5) / 3.0 - 0.5);
         let base = grid.map(|g| g.floor() as i32);
-        let mut nearest = 0.0;
+        let mut found = ([1.0; 4], 0.0);
         for ring in [0, 1] {
-            let (mut weights, mut lambda, mut ratio) = (0.0, 0.0, [0.0; 4]);
+            let (mut weights, mut ratio) = (0.0, [0.0; 4]);
+            let (mut gradient, mut around) = ([0.0; 2], [0.0; 2]);
             for (sx, sy) in
                 (-ring..=1 + ring).flat_map(|dy| (-ring..=1 + ring).map(move |dx| (base[0] + dx, base[1] + dy)))
             {
                 let Some(s) = self.bench.stratum(sx, sy).filter(|&s| self.samples[s][0] != 0) else { continue };
                 let exponent = exponent(&here, &self.bench.site(self.samples[s], sx, sy), here.depth);
                 *unsure |= (exponent - CUT).abs() < 1e-2;
-                if exponent > CUT {
-                    continue;
-                }
                 let tent = [(sx, grid[0]), (sy, grid[1])].map(|(s, g)| (1.0 - (g - f64::from(s)).abs()).max(0.05));
-                let w = tent[0] * tent[1] * (-exponent).exp();
-                let [numerator, denominator] = [0, 1].map(|c| float(self.gradient[s][c]));
-                lambda += w * if denominator > 0.0 { (numerator / denominator).clamp(0.0, 1.0) } else { 0.0 };
+                let w = if exponent > CUT { 0.0 } else { tent[0] * tent[1] * (-exponent).exp() };
+                for c in [0, 1] {
+                    gradient[c] += w * float(self.gradient[s][c]);
+                    around[c] += tent[0] * tent[1] * float(self.gradient[s][c]);
+                }
                 for (sum, &r) in ratio.iter_mut().zip(&self.ratio[s]) {
                     *sum += w * float(r);
                 }
                 weights += w;
             }
             *unsure |= (weights / 1e-4 - 1.0).abs() < 0.1;
-            // Whether what the nearest four had too little of counts once or twice in the wider ring is not laid down.
-            *unsure |= ring == 1 && nearest > 0.0 && weights < 2000.0 * nearest;
-            if weights > if ring == 0 { 1e-4 } else { 0.0 } {
-                return (ratio.map(|r| r / weights), lambda / weights);
+            let [numerator, denominator] = if gradient[1] > 0.0 { gradient } else { around };
+            let lambda = if denominator > 0.0 { (numerator / denominator).clamp(0.0, 1.0) } else { 0.0 };
+            found = (if weights > 0.0 { ratio.map(|r| r / weights) } else { [1.0; 4] }, lambda);
+            if weights > 1e-4 && gradient[1] > 0.0 {
+                break;
             }
-            nearest = weights;
         }
-        ([1.0; 4], 0.0)
+        found
     }
 
     fn twin(&self, x: i32, y: i32) -> Blended {
