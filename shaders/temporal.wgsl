@@ -128,6 +128,9 @@ struct Strata {
     around: vec2<f32>,
 }
 
+// Weight of what was seen on other surfaces. None leaves ghosts on thin ones, all of it forgets along every edge of a change.
+const BORROWED: f32 = 0.25;
+
 fn add_stratum(
     sum: ptr<function, Strata>,
     stratum: vec2<i32>,
@@ -153,8 +156,8 @@ fn add_stratum(
 }
 
 // What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is on the
-// surface or none of their paths found light, which tells nothing. Where the 4×4 do not tell either, λ is what they saw on any
-// surface: on a thin pillar, what no stratum saw would else stay for a whole history.
+// surface or none of their paths found light, which tells nothing. To this comes a part of what the same strata saw on any
+// surface: a thin pillar has few samples, and a change that all of them missed would stay for a whole history.
 fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32) -> Change {
     let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;
@@ -171,7 +174,7 @@ fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32) -> Change {
     for (var i = 0; i < searched; i++) {
         add_stratum(&sum, base + vec2(i & 3, i >> 2u) - 1, grid, here, normal, depth);
     }
-    let g = select(sum.around, sum.gradient, sum.gradient.y > 0.0);
+    let g = sum.gradient + BORROWED * sum.around;
     let scale = select(0.0, 1.0 / sum.weight, sum.weight > 0.0);
     // λ may not exceed 1 by an ulp, as (1 − λ)^k would then be NaN.
     return Change(1.0 + sum.ratio * scale, clamp(g.x / max(g.y, 1e-37), 0.0, 1.0));
