@@ -39,7 +39,15 @@ fn quotient(a: f32, b: f32) -> f32 {
     return select(a / b, 1.0, a == b);
 }
 
-fn history_ratio(stratum: vec2<i32>) -> vec4<f32> {
+struct HistoryRatio {
+    ratio: vec4<f32>,
+    // How far the ratio was outside its limits, 0…1 at twice as much or half.
+    beyond: f32,
+    // The brighter of the filtered luminances.
+    larger: f32,
+}
+
+fn history_ratio(stratum: vec2<i32>) -> HistoryRatio {
     let now = textureLoad(now_filtered, stratum, 0);
     let before = textureLoad(before_filtered, stratum, 0);
     let product = textureLoad(product_filtered, stratum, 0).x;
@@ -48,7 +56,7 @@ fn history_ratio(stratum: vec2<i32>) -> vec4<f32> {
     // A prior towards 1 in proportion to what there was; in full darkness there is nothing to scale.
     let e = frame.ratio_prior * l_before;
     if max(l, l_before) <= DARK || l_before + e <= 0.0 {
-        return vec4(1.0);
+        return HistoryRatio(vec4(1.0), 0.0, max(l, l_before));
     }
     let luminance_ratio = quotient(l + e, l_before + e);
     let limit = frame.ratio_chroma_limit;
@@ -66,7 +74,9 @@ fn history_ratio(stratum: vec2<i32>) -> vec4<f32> {
     let excess = (r - 1.0) * (r - 1.0);
     let kept = select(max(0.0, 1.0 - variance / max(excess, 1e-9)), 0.0, excess == 0.0 && variance > 0.0);
     ratio = 1.0 + (ratio - 1.0) * kept;
-    return clamp(ratio, vec4(1.0 / frame.ratio_limit), vec4(frame.ratio_limit));
+    let most = frame.ratio_limit;
+    let beyond = clamp(max(2.0 - 2.0 * most * ratio.w, ratio.w / most - 1.0), 0.0, 1.0);
+    return HistoryRatio(clamp(ratio, vec4(1.0 / most), vec4(most)), beyond, max(l, l_before));
 }
 #endif
 
@@ -91,7 +101,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var before = luminance(unpack_rgb(textureLoad(radiance_previous, previous_pixel(record), 0).xy));
 #endif
 #ifdef HISTORY_RATIO
-        ratio = history_ratio(stratum);
+        let rescaled = history_ratio(stratum);
+        ratio = rescaled.ratio;
         before *= ratio.w;
 #endif
         let larger = max(now, before);
@@ -101,6 +112,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                 pow(larger, frame.gradient_gamma),
             );
         }
+#ifdef HISTORY_RATIO
+        // A history that would have to be scaled by more than the limit is worth nothing: λ = 1, whatever this one path saw. What
+        // a lamp that goes out leaves behind would else be as bright, for a whole history, as the light that remains.
+        gradient = mix(gradient, vec2(pow(max(rescaled.larger, DARK), frame.gradient_gamma)), rescaled.beyond);
+#endif
     }
     textureStore(gradient_out, stratum, vec4(gradient, 0.0, 0.0));
 #ifdef HISTORY_RATIO

@@ -255,7 +255,8 @@ impl Given {
                 weights += w;
             }
             *unsure |= (weights / 1e-4 - 1.0).abs() < 0.1;
-            let [numerator, denominator] = if gradient[1] > 0.0 { gradient } else { around };
+            // A quarter of what is around counts too, so that thin surfaces do not miss a change.
+            let [numerator, denominator] = [0, 1].map(|c| gradient[c] + 0.25 * around[c]);
             let lambda = if denominator > 0.0 { (numerator / denominator).clamp(0.0, 1.0) } else { 0.0 };
             found = (if weights > 0.0 { ratio.map(|r| r / weights) } else { [1.0; 4] }, lambda);
             if weights > 1e-4 && gradient[1] > 0.0 {
