@@ -7,7 +7,7 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb, pack_tap, tap_color, tap_variance}
-#import asvgf::edge_stop::{Plane, tangent_plane, plane_distance}
+#import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var<uniform> stride: i32;
 // Demodulated radiance, deviation of its luminance, normal and depth.
@@ -67,7 +67,7 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, texel: vec4<u32>, offset: vec2<
     let excess = difference * difference - (c.variance + min(c.variance, sample_variance));
     let exponent = plane_distance(c.plane, vec2<f32>(offset), depth) + frame.sigma_normal * (1.0 - cosine)
         + max(excess, 0.0) / (frame.sigma_luminance * noise + 1e-37);
-    let w = kernel * exp(-exponent);
+    let w = kernel * falloff(exponent);
 #endif
     let weight = select(0.0, w, depth > 0.0);
     (*sums).color += weight * sample;

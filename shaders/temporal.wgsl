@@ -10,7 +10,8 @@
 #ifdef GRADIENT
 #import asvgf::frame::{world_position, sample_point}
 #import asvgf::strata::is_sample_pixel
-#import asvgf::strata_filter::{site, geometric_exponent, in_grid, CUT, PLANE}
+#import asvgf::strata_filter::{site, geometric_exponent, in_grid, PLANE}
+#import asvgf::edge_stop::falloff
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
@@ -145,7 +146,7 @@ fn add_stratum(
     let exponent = geometric_exponent(normal, s.position - here, s.normal, PLANE * depth);
     let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
     let near = select(0.0, tent.x * tent.y, in_grid(stratum) && record.x != 0u);
-    let w = select(0.0, near * exp(-exponent), exponent <= CUT);
+    let w = near * falloff(exponent);
     let g = textureLoad(gradient, clamped, 0).xy;
     (*sum).gradient += w * g;
     (*sum).around += near * g;

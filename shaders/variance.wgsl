@@ -4,7 +4,7 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::packing::{unpack_rgb, unpack_normal, unpack_length, pack_tap}
-#import asvgf::edge_stop::{Plane, tangent_plane, plane_distance}
+#import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 @group(0) @binding(2) var history: texture_2d<u32>;
@@ -16,7 +16,7 @@
 // History length below which the variance is a spatial one.
 const SHORT: f32 = 4.0;
 
-// exp(−(distance from the plane / 2 % of the depth) − 64·(1 − n·n')), cut at 8.
+// Falls off with the distance from the plane in 2 % of the depth, and with 64·(1 − n·n').
 fn weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<u32>) -> f32 {
     let depth = bitcast<f32>(g.y);
     if depth <= 0.0 {
@@ -24,7 +24,7 @@ fn weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<u32>) -> f
     }
     let exponent = plane_distance(plane, vec2<f32>(offset), depth) / (0.02 * plane.depth)
         + 64.0 * (1.0 - dot(normal, unpack_normal(g.x)));
-    return select(exp(-exponent), 0.0, exponent > 8.0);
+    return falloff(exponent);
 }
 
 fn mean_luminance(h: vec4<u32>) -> f32 {

@@ -2,6 +2,7 @@
 
 #import asvgf::frame::{frame, world_position, sample_point}
 #import asvgf::packing::unpack_normal
+#import asvgf::edge_stop::falloff
 #import asvgf::strata::sample_pixel
 
 // Where a stratum's sample lies, from its record.
@@ -16,9 +17,6 @@ fn site(record: vec4<u32>, stratum: vec2<i32>) -> Site {
     let point = sample_point(frame.camera, vec2<f32>(sample_pixel(record, stratum)));
     return Site(world_position(frame.camera, point, depth), unpack_normal(record.z), depth);
 }
-
-// Beyond this exponent a weight counts as 0.
-const CUT: f32 = 8.0;
 
 // Exponent of the geometric weight between strata, and between a pixel and a stratum: distance from the plane in
 // parts of `reach`, and angle of the normals.
@@ -38,7 +36,7 @@ fn tap_weight(center: Site, other: Site, offset: vec2<i32>, stride: i32) -> f32 
         PLANE * center.depth * f32(stride),
     );
     let tent = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-    return select(tent * exp(-exponent), 0.0, exponent > CUT);
+    return tent * falloff(exponent);
 }
 
 fn in_grid(stratum: vec2<i32>) -> bool {

@@ -4,6 +4,7 @@ use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, luminance, pack_tap, radiance, unpack_normal, unpack_rgb, unpack_tap};
 use super::plane::{V, add, dot, scale, sub};
 use super::random::Random;
+use super::strata::falloff;
 use crate::passes::atrous;
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings, Stops};
@@ -60,7 +61,7 @@ fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i
             let sigma = f64::from(f.sigma_luminance).powi(2);
             let exponent =
                 distance + f64::from(f.sigma_normal) * (1.0 - cosine) + excess / (sigma * (variance + other) + 1e-37);
-            (-exponent).exp()
+            falloff(exponent)
         };
         taps.push((spline(dx) * spline(dy) * stop, [dx, dy].map(f64::from), color, other));
     }

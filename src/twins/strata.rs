@@ -9,8 +9,10 @@ use crate::gpu::textures::strata;
 /// Distance from the plane that is tolerated, in parts of the depth.
 const REACH: f64 = 0.02;
 
-/// Beyond this exponent a weight counts as nothing.
-pub(super) const CUT: f64 = 8.0;
+/// What stands for e⁻ˣ: (1 − x/8)⁸, and nothing from 8 on.
+pub(super) fn falloff(x: f64) -> f64 {
+    (1.0 - x / 8.0).max(0.0).powi(8)
+}
 
 /// Where a stratum's sample lies.
 pub(super) struct Site {
@@ -71,7 +73,7 @@ impl Bench {
                 let i = self.stratum(tx, ty).filter(|&i| records[i][0] != 0)?;
                 let exponent = exponent(&here, &self.site(records[i], tx, ty), here.depth * f64::from(stride));
                 let tent = f64::from((2 - dx.abs()) * (2 - dy.abs()));
-                Some((i, if exponent > CUT { 0.0 } else { tent * (-exponent).exp() }))
+                Some((i, tent * falloff(exponent)))
             })
             .collect()
     }

@@ -6,7 +6,7 @@ use super::codec::{
 };
 use super::plane::{Pinhole, V, add, dot, scale, sub};
 use super::random::Random;
-use super::strata::{CUT, Site, exponent};
+use super::strata::{Site, exponent, falloff};
 use super::variance::length_of;
 use crate::passes::temporal;
 use crate::plan::{Feature, Features, Image};
@@ -242,9 +242,8 @@ impl Given {
             {
                 let Some(s) = self.bench.stratum(sx, sy).filter(|&s| self.samples[s][0] != 0) else { continue };
                 let exponent = exponent(&here, &self.bench.site(self.samples[s], sx, sy), here.depth);
-                *unsure |= (exponent - CUT).abs() < 1e-2;
                 let tent = [(sx, grid[0]), (sy, grid[1])].map(|(s, g)| (1.0 - (g - f64::from(s)).abs()).max(0.05));
-                let w = if exponent > CUT { 0.0 } else { tent[0] * tent[1] * (-exponent).exp() };
+                let w = tent[0] * tent[1] * falloff(exponent);
                 for c in [0, 1] {
                     gradient[c] += w * float(self.gradient[s][c]);
                     around[c] += tent[0] * tent[1] * float(self.gradient[s][c]);

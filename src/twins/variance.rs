@@ -6,6 +6,7 @@ use super::codec::{
 };
 use super::plane::{dot, sub};
 use super::random::Random;
+use super::strata::falloff;
 use crate::Settings;
 use crate::passes::variance;
 use crate::plan::{Feature, Features};
@@ -30,10 +31,7 @@ fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel]
         let Some(q) = bench.at(x + dx, y + dy).filter(|&q| depth(guide[q]) > 0.0) else { continue };
         let distance = dot(normal, sub(bench.position(x + dx, y + dy, depth(guide[q])), position)).abs();
         let exponent = distance / (0.02 * z) + 64.0 * (1.0 - dot(normal, unpack_normal(guide[q][0])));
-        if exponent > 8.0 {
-            continue;
-        }
-        let (w, mean) = ((-exponent).exp(), mean_of(history[q], features));
+        let (w, mean) = (falloff(exponent), mean_of(history[q], features));
         let second_moment = float(history[q][2]) + mean * mean;
         first += w * mean;
         second += w * second_moment;
