@@ -112,13 +112,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let own = textureLoad(color, pixel, 0);
     let depth = bitcast<f32>(own.w);
-    if depth <= 0.0 {
-        textureStore(color_out, pixel, vec4(0u));
-#ifdef FEEDBACK
-        textureStore(feedback_out, pixel, vec4(0u));
-#endif
-        return;
-    }
     let west = load(pixel, vec2(-1, 0));
     let east = load(pixel, vec2(1, 0));
     let north = load(pixel, vec2(0, -1));
@@ -194,9 +187,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     let filtered = sums.color / sums.weight;
 #endif
-    textureStore(color_out, pixel, pack_tap(filtered, sqrt(sums.variance) / sums.weight, own.zw));
+    // A miss is carried on as it is: it filters nothing, and what comes of it is not kept.
+    let texel = pack_tap(filtered, sqrt(sums.variance) / sums.weight, own.zw);
+    textureStore(color_out, pixel, select(vec4(0u), texel, depth > 0.0));
 #ifdef FEEDBACK
-    textureStore(feedback_out, pixel, vec4(pack_rgb(filtered), 0u, 0u));
+    textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(filtered), depth > 0.0), 0u, 0u));
 #endif
 }
 

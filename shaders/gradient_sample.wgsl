@@ -9,7 +9,7 @@
 #import asvgf::random::hash
 #import asvgf::packing::unpack_normal
 #import asvgf::reproject::{origin_of, same_surface}
-#import asvgf::strata::{SIZE, is_sample_pixel}
+#import asvgf::strata::{is_sample_pixel, sample_pixel, stratum_of}
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 @group(0) @binding(2) var guide_previous: texture_2d<u32>;
@@ -33,10 +33,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var record = vec4(0u);
     if frame.continued != 0u {
         // Step 4 visits all nine places before it repeats one.
-        let first = hash(id.x ^ hash(id.y ^ hash(frame.seed))) % 9u + 4u * (frame.index % 9u);
+        let first = (hash(id.x ^ hash(id.y ^ hash(frame.seed))) % 9u + 4u * (frame.index % 9u)) % 9u;
         for (var k = 0u; k < CANDIDATES; k++) {
-            let place = i32((first + k) % 9u);
-            let pixel = stratum * SIZE + vec2(place % SIZE, place / SIZE);
+            let place = first + k - select(0u, 9u, first + k >= 9u);
+            let pixel = sample_pixel(vec4(place + 1u), stratum);
             if !inside(pixel) {
                 continue;
             }
@@ -61,10 +61,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             if !same_surface(origin, previous, textureLoad(guide_previous, previous, 0).xy, there) {
                 continue;
             }
-            if is_sample_pixel(textureLoad(samples_previous, previous / SIZE, 0), vec2<u32>(previous)) {
+            if is_sample_pixel(textureLoad(samples_previous, stratum_of(vec2<u32>(previous)), 0), vec2<u32>(previous)) {
                 continue;
             }
-            record = vec4(u32(place) + 1u, u32(previous.x) | (u32(previous.y) << 16u), g);
+            record = vec4(place + 1u, u32(previous.x) | (u32(previous.y) << 16u), g);
             break;
         }
     }

@@ -9,7 +9,7 @@
 #import asvgf::reproject::{Origin, origin_of, same_surface}
 #ifdef GRADIENT
 #import asvgf::frame::{world_position, sample_point}
-#import asvgf::strata::is_sample_pixel
+#import asvgf::strata::{is_sample_pixel, stratum_of}
 #import asvgf::strata_filter::{site, geometric_exponent, in_grid, PLANE}
 #import asvgf::edge_stop::falloff
 #endif
@@ -99,7 +99,7 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin) -> History {
         sum = Taps(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0.0);
     }
     for (var i = 0; i < searched; i++) {
-        let tap = base + vec2(i % 4, i / 4) - 1;
+        let tap = base + vec2(i & 3, i >> 2u) - 1;
         let d = vec2<f32>(tap) - point;
         add_tap(&sum, origin, tap, exp(-dot(d, d)));
     }
@@ -190,14 +190,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let g = textureLoad(guide, pixel, 0).xy;
     let depth = bitcast<f32>(g.y);
-    if depth <= 0.0 {
-        textureStore(history_out, pixel, vec4(0u));
-        textureStore(color_out, pixel, vec4(0u));
-#ifdef FEEDBACK
-        textureStore(feedback_out, pixel, vec4(0u));
-#endif
-        return;
-    }
+    // A miss is carried on like a surface, and what comes of it is not kept.
+    let seen = depth > 0.0;
     let normal = unpack_normal(g.x);
     let sample = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
     let l = luminance(sample);
@@ -243,7 +237,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef RESHADE
         // The gradient's sample is not new: averaged in, it would count twice (noise ×1.11). Only where it replaces what λ
         // drops does it count.
-        if is_sample_pixel(textureLoad(samples, pixel / 3, 0), id.xy) {
+        if is_sample_pixel(textureLoad(samples, stratum_of(id.xy), 0), id.xy) {
             alpha = lambda;
             length = max(kept, 1.0);
         }
@@ -257,11 +251,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let packed = pack_rgb(max(color, vec3(0.0)));
 #ifdef FEEDBACK
-    textureStore(history_out, pixel, vec4(bitcast<u32>(mean), 0u, bitcast<u32>(variance), pack_length_lambda(length, lambda)));
-    textureStore(feedback_out, pixel, vec4(packed, 0u, 0u));
+    let kept_history = vec4(bitcast<u32>(mean), 0u, bitcast<u32>(variance), pack_length_lambda(length, lambda));
+    textureStore(feedback_out, pixel, vec4(select(vec2(0u), packed, seen), 0u, 0u));
 #else
-    textureStore(history_out, pixel, vec4(packed, bitcast<u32>(variance), pack_length_lambda(length, lambda)));
+    let kept_history = vec4(packed, bitcast<u32>(variance), pack_length_lambda(length, lambda));
 #endif
+    textureStore(history_out, pixel, select(vec4(0u), kept_history, seen));
 #ifdef VARIANCE_OF_MEAN
     // Bessel's correction while it matters, then the variance of a mean of n.
     let bessel = select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
@@ -271,5 +266,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     // What is filtered is what was stored.
     let stored = unpack_rgb(packed);
-    textureStore(color_out, pixel, pack_tap(stored, sqrt(guiding), g));
+    textureStore(color_out, pixel, select(vec4(0u), pack_tap(stored, sqrt(guiding), g), seen));
 }

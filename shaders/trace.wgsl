@@ -17,7 +17,7 @@
 #import asvgf::color::{luminance, sanitize}
 #import asvgf::packing::pack_rgb
 #ifdef RESHADE
-#import asvgf::strata::{is_sample_pixel, previous_pixel}
+#import asvgf::strata::{is_sample_pixel, previous_pixel, stratum_of}
 #endif
 
 @group(0) @binding(1) var visibility: texture_2d<u32>;
@@ -171,7 +171,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var seed_pixel = id.xy;
     var seed_frame = frame.index;
 #ifdef RESHADE
-    let record = textureLoad(samples, pixel / 3, 0);
+    let record = textureLoad(samples, stratum_of(id.xy), 0);
     if is_sample_pixel(record, id.xy) {
         let q = previous_pixel(record);
         let then = textureLoad(visibility_previous, q, 0).x;

@@ -26,27 +26,27 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
     let hit = closest_hit(ray);
-    if hit.triangle == NO_TRIANGLE {
-        textureStore(visibility_out, pixel, vec4(NO_TRIANGLE));
-        textureStore(guide_out, pixel, vec4(0u));
-        textureStore(motion_out, pixel, vec4(0.0));
-#ifdef INSTANCED
-        textureStore(object_out, pixel, vec4(NO_TRIANGLE));
-#endif
-        return;
+    var id_seen = NO_TRIANGLE;
+    var object = NO_TRIANGLE;
+    var guide = vec2(0u);
+    var motion = vec3(0.0);
+    if hit.triangle != NO_TRIANGLE {
+        let v = Visible(hit.triangle, hit.instance);
+        let now = triangle_now(v);
+        let weights = barycentrics(now, ray.origin, ray.direction);
+        let normal = shading_normal(v, weights, geometric_normal(now, ray.direction));
+        let here = project(frame.camera, at(now, weights));
+        let before = project(frame.previous, at(triangle_before(v), weights));
+        id_seen = visibility_id(hit.triangle, hit.instance);
+        object = hit.instance;
+        guide = vec2(pack_normal(normal), bitcast<u32>(here.z));
+        // A point that was behind the previous camera has no place in its image: far outside.
+        motion = vec3(select(vec2(-1e9), before.xy - here.xy, before.z > 0.0), before.z);
     }
-    let v = Visible(hit.triangle, hit.instance);
-    let now = triangle_now(v);
-    let weights = barycentrics(now, ray.origin, ray.direction);
-    let normal = shading_normal(v, weights, geometric_normal(now, ray.direction));
-    let here = project(frame.camera, at(now, weights));
-    let before = project(frame.previous, at(triangle_before(v), weights));
-    // A point that was behind the previous camera has no place in its image: far outside.
-    let motion = select(vec2(-1e9), before.xy - here.xy, before.z > 0.0);
-    textureStore(visibility_out, pixel, vec4(visibility_id(hit.triangle, hit.instance)));
-    textureStore(guide_out, pixel, vec4(pack_normal(normal), bitcast<u32>(here.z), 0u, 0u));
-    textureStore(motion_out, pixel, vec4(motion, before.z, 0.0));
+    textureStore(visibility_out, pixel, vec4(id_seen));
+    textureStore(guide_out, pixel, vec4(guide, 0u, 0u));
+    textureStore(motion_out, pixel, vec4(motion, 0.0));
 #ifdef INSTANCED
-    textureStore(object_out, pixel, vec4(hit.instance));
+    textureStore(object_out, pixel, vec4(object));
 #endif
 }

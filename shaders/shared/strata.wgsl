@@ -7,17 +7,26 @@
 
 const SIZE: i32 = 3;
 
-fn place_in_stratum(pixel: vec2<u32>) -> u32 {
-    return (pixel.y % 3u) * 3u + pixel.x % 3u + 1u;
+// x / 3 for x < 98 304, by multiplication: a software adapter divides integers one by one, at 300 cycles a time.
+fn third(x: vec2<u32>) -> vec2<u32> {
+    return (x * 43691u) >> vec2(17u);
+}
+
+// The stratum that a pixel belongs to.
+fn stratum_of(pixel: vec2<u32>) -> vec2<u32> {
+    return third(pixel);
 }
 
 fn is_sample_pixel(record: vec4<u32>, pixel: vec2<u32>) -> bool {
-    return record.x == place_in_stratum(pixel);
+    let within = pixel - 3u * stratum_of(pixel);
+    return record.x == within.y * 3u + within.x + 1u;
 }
 
 fn sample_pixel(record: vec4<u32>, stratum: vec2<i32>) -> vec2<i32> {
-    let place = i32(record.x) - 1;
-    return stratum * SIZE + vec2(place % SIZE, place / SIZE);
+    let place = record.x - 1u;
+    // place / 3 for place < 9.
+    let row = (place * 11u) >> 5u;
+    return stratum * SIZE + vec2<i32>(vec2(place - 3u * row, row));
 }
 
 fn previous_pixel(record: vec4<u32>) -> vec2<i32> {
