@@ -34,6 +34,7 @@ pub struct DenoiserDescriptor {
 }
 
 /// One frame of a path-traced scene.
+#[cfg(feature = "path-tracer")]
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
     /// What to trace, moved to this frame's pose by [`GpuScene::update`].
@@ -209,6 +210,7 @@ impl Denoiser {
     ///
     /// # Errors
     /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
+    #[cfg(feature = "path-tracer")]
     pub fn render(&mut self, device: &Device, encoder: &mut CommandEncoder, frame: &Frame<'_>) -> Result<(), Error> {
         // No debug group around the frame, only a label on each pass: in debug builds, Mesa 22.3's drivers crash at the
         // second group of an encoder (gfx-rs/wgpu#3377), and an encoder may hold many frames.
@@ -220,6 +222,7 @@ impl Denoiser {
     ///
     /// # Errors
     /// As [`Denoiser::render`].
+    #[cfg(feature = "path-tracer")]
     pub fn render_stepwise(
         &mut self,
         device: &Device,
@@ -324,7 +327,7 @@ impl Denoiser {
     }
 
     fn permutation(step: &Step, stack: u32) -> Permutation {
-        let traverses = matches!(step.pass, Pass::Visibility | Pass::Trace);
+        let traverses = ["visibility", "trace"].contains(&step.pass.name());
         Permutation {
             pass: step.pass,
             features: step.features,
