@@ -1,5 +1,40 @@
 //! Real-time denoising of path-traced images: adaptive spatiotemporal variance-guided filtering (A-SVGF) in WGSL compute
 //! shaders on [`wgpu`].
+//!
+//! A [`Denoiser`] holds the pipelines and the history of one view; a `scene::GpuScene` holds what is traced. Both record into
+//! the host's encoder and never submit, wait, print or own the device. A device with `Limits::default()` and no features is
+//! enough.
+#![cfg_attr(
+    all(feature = "path-tracer", feature = "gltf"),
+    doc = r#"
+```no_run
+use asvgf::{Camera, Denoiser, DenoiserDescriptor, Frame, scene, wgpu};
+
+fn frames(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    target: &wgpu::TextureView,
+) -> Result<(), Box<dyn std::error::Error>> {
+    let loaded = scene::load("room.gltf")?;
+    let mut scene = scene::GpuScene::new(device, queue, &loaded.scene)?;
+    let descriptor = DenoiserDescriptor { size: [1280, 720], ..Default::default() };
+    let mut denoiser = Denoiser::new(device, queue, &descriptor)?;
+    for index in 0..100 {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        scene.update(device, &mut encoder, &loaded.scene.pose(Some(0), index as f32 / 60.0))?;
+        let camera = Camera { eye: [0.0, 1.0, 4.0], target: [0.0, 1.0, 0.0], ..Default::default() };
+        denoiser.render(device, &mut encoder, &Frame { scene: &scene, camera, index, target })?;
+        queue.submit([encoder.finish()]);
+    }
+    Ok(())
+}
+```
+"#
+)]
+//!
+//! # Conventions
+//! Right-handed world, +Y up, metres; linear Rec. 709 radiance; pixels from the upper left, x right, y down; linear depth along
+//! the view; motion is previous − current position in pixels, without the jitter.
 #![deny(missing_docs)]
 // Without the path tracer nothing feeds the filter yet.
 #![cfg_attr(
