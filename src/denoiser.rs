@@ -58,7 +58,7 @@ pub struct Requirements {
     pub limits: Limits,
 }
 
-/// Turns noisy samples into clean frames: traces a [`GpuScene`] and filters the result.
+/// Turns noisy samples into clean frames: traces a `GpuScene` and filters the result.
 ///
 /// It records into the host's encoder and never submits, waits or prints. Several frames, or several denoisers, may be
 /// recorded into one encoder. History lives in the denoiser; use one per view.

@@ -10,7 +10,7 @@ use wgpu::{
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FrameTimes {
-    /// [`Frame::index`](crate::Frame::index).
+    /// `Frame::index`.
     pub frame: u32,
     /// Name of each pass and its milliseconds, in order; iterations one by one.
     pub passes: Vec<(&'static str, f64)>,
