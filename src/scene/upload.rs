@@ -36,6 +36,8 @@ pub struct GpuScene {
     traits: Traits,
     stack: u32,
     pose: Pose,
+    /// Whether the records hold two different placements of something.
+    moved: bool,
     instances: Vec<Instance>,
     emitters: Vec<Emitter>,
     light_table: Vec<GpuLight>,
@@ -268,6 +270,7 @@ impl GpuScene {
             traits,
             stack: 0,
             pose: pose.clone(),
+            moved: false,
             instances,
             emitters: emitters.into_values().collect(),
             light_table,
@@ -327,11 +330,14 @@ impl GpuScene {
         }
         let before = std::mem::replace(&mut self.pose, pose.clone());
         let changed = before != *pose;
-        if self.traits.instanced {
+        // One frame more than the movement lasts, so that what has stopped is where it was.
+        let moves = before.world != pose.world;
+        if self.traits.instanced && (moves || self.moved) {
             let (top, _) = self.placements(&before);
             self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
             folded::replace(device, encoder, &self.buffers.nodes.0, &top);
         }
+        self.moved = moves;
         self.buffers.analytic_lights_previous = self.buffers.analytic_lights.clone();
         if changed {
             self.revision += 1;

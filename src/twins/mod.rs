@@ -7,12 +7,12 @@
 mod bench;
 mod codec;
 mod compute;
-#[allow(dead_code)]
+#[allow(dead_code, reason = "shared with the integration tests, which use the rest")]
 #[path = "../../tests/common/gpu.rs"]
 mod gpu;
 pub(crate) mod layout;
 mod permutations;
-#[allow(dead_code)]
+#[allow(dead_code, reason = "shared with the integration tests, which use the rest")]
 #[path = "../../tests/common/plane.rs"]
 mod plane;
 mod random;
