@@ -25,6 +25,50 @@ impl Default for Camera {
     }
 }
 
+/// A perspective camera as renderers have it. Matrices are arrays of columns: `m[column][row]`, as glam's `to_cols_array_2d` gives
+/// them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Matrices {
+    /// World space to view space: a rotation and a translation, without scale. Right- or left-handed.
+    pub view: [[f32; 4]; 4],
+    /// View space to clip space, x right and y up, **without** the jitter. Any depth range: reversed and infinite ones too, as
+    /// depth is not read from it. It may be off-centre.
+    pub projection: [[f32; 4]; 4],
+    /// Where the ray of a pixel goes through it, from its centre, in pixels, x right, y **down**: −½…½. The same for all pixels of a
+    /// frame.
+    pub jitter: [f32; 2],
+}
+
+/// Where a frame is seen from. Both kinds convert into it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Viewpoint {
+    /// Given by where it is and what it looks at.
+    Camera(Camera),
+    /// Given by its matrices.
+    Matrices(Matrices),
+}
+
+impl From<Camera> for Viewpoint {
+    fn from(camera: Camera) -> Self {
+        Self::Camera(camera)
+    }
+}
+
+impl From<Matrices> for Viewpoint {
+    fn from(matrices: Matrices) -> Self {
+        Self::Matrices(matrices)
+    }
+}
+
+impl Viewpoint {
+    pub(crate) fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
+        match self {
+            Self::Camera(camera) => camera.uniform(size),
+            Self::Matrices(matrices) => matrices.uniform(size),
+        }
+    }
+}
+
 /// `Camera` of shaders/shared/frame.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -76,6 +120,71 @@ impl Camera {
             eye: self.eye,
             jitter_x: self.jitter[0],
             forward: narrow(forward),
+            jitter_y: self.jitter[1],
+            corner: narrow(corner),
+            pad: 0.0,
+            du: narrow(du),
+            inverse_du: (1.0 / dot(du, du)) as f32,
+            dv: narrow(dv),
+            inverse_dv: (1.0 / dot(dv, dv)) as f32,
+        })
+    }
+}
+
+impl Matrices {
+    /// As [`Camera::uniform`]. A point v of view space has the linear depth z = s·v_z, s = ±1 by handedness, and the image point
+    /// ndc = A·(v_xy/z) + s·(P₂₀, P₂₁) with A the upper left 2×2 of the projection, divided by |P₂₃|. Solved for v_xy/z, and turned
+    /// into world space, that is the ray of an image point, affine in it.
+    fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
+        let wrong = |element, reason| Err(Error::Camera { element, reason });
+        let finite = |m: &[[f32; 4]; 4]| m.iter().flatten().all(|x| x.is_finite());
+        if !finite(&self.view) || self.view.map(|c| c[3]) != [0.0, 0.0, 0.0, 1.0] {
+            return wrong("view", "is not an affine matrix of finite numbers: its last row must be 0 0 0 1");
+        }
+        if !finite(&self.projection) {
+            return wrong("projection", "is not finite");
+        }
+        if !self.jitter.iter().all(|x| x.is_finite()) {
+            return wrong("jitter", "is not finite");
+        }
+        let [x, y, z, translation] = self.view.map(|c| [c[0], c[1], c[2]].map(f64::from));
+        let products = [dot(x, x) - 1.0, dot(y, y) - 1.0, dot(z, z) - 1.0, dot(x, y), dot(y, z), dot(z, x)];
+        if products.iter().any(|p| p.abs() > 1e-3) {
+            return wrong(
+                "view",
+                "is not a rotation and a translation: depth is measured in the world's unit, so it may not scale",
+            );
+        }
+        let p = self.projection.map(|c| c.map(f64::from));
+        let along = p[2][3].abs();
+        if p[0][3] != 0.0 || p[1][3] != 0.0 || p[3][3] != 0.0 || along < 1e-30 {
+            return wrong("projection", "is not a perspective one: its last row must be 0 0 ±1 0");
+        }
+        let p = p.map(|c| c.map(|e| e / along));
+        let side = p[2][3].signum();
+        let determinant = p[0][0] * p[1][1] - p[1][0] * p[0][1];
+        if determinant.abs() < 1e-12 || p[3][0] != 0.0 || p[3][1] != 0.0 {
+            return wrong("projection", "does not map directions to image points one to one");
+        }
+        // v_xy/z of a point of the image plane, −1…1.
+        let slope = |x: f64, y: f64| {
+            let (x, y) = (x - side * p[2][0], y - side * p[2][1]);
+            [(p[1][1] * x - p[1][0] * y) / determinant, (p[0][0] * y - p[0][1] * x) / determinant]
+        };
+        // View to world: the transpose of the rotation.
+        let world = |v: [f64; 3]| [dot(x, v), dot(y, v), dot(z, v)];
+        let ray = |[x, y]: [f64; 2]| world([x, y, side]);
+        let corner = ray(slope(-1.0, 1.0));
+        let du = scale(subtract(ray(slope(1.0, 1.0)), corner), 1.0 / f64::from(size[0]));
+        let dv = scale(subtract(ray(slope(-1.0, -1.0)), corner), 1.0 / f64::from(size[1]));
+        if dot(du, dv).abs() > 1e-4 * (dot(du, du) * dot(dv, dv)).sqrt() {
+            return wrong("projection", "shears the image");
+        }
+        let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+        Ok(CameraUniform {
+            eye: narrow(scale(world(translation), -1.0)),
+            jitter_x: self.jitter[0],
+            forward: narrow(world([0.0, 0.0, side])),
             jitter_y: self.jitter[1],
             corner: narrow(corner),
             pad: 0.0,

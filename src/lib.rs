@@ -36,11 +36,6 @@ fn frames(
 //! Right-handed world, +Y up, metres; linear Rec. 709 radiance; pixels from the upper left, x right, y down; linear depth along
 //! the view; motion is previous − current position in pixels, without the jitter.
 #![deny(missing_docs)]
-// Without the path tracer nothing feeds the filter yet.
-#![cfg_attr(
-    not(feature = "path-tracer"),
-    allow(dead_code, unused_imports, reason = "the host's own frames are to come")
-)]
 #![warn(missing_debug_implementations)]
 
 pub use wgpu;
@@ -53,6 +48,7 @@ mod camera;
 mod denoiser;
 mod error;
 mod gpu;
+mod host;
 #[cfg(feature = "image")]
 pub mod image_io;
 mod passes;
@@ -64,15 +60,22 @@ mod settings;
 mod twins;
 mod view;
 
-pub use camera::Camera;
+pub use camera::{Camera, Matrices, Viewpoint};
 #[cfg(feature = "path-tracer")]
 pub use denoiser::Frame;
 pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements};
 pub use error::Error;
+pub use gpu::counts::InputCounts;
 pub use gpu::timing::FrameTimes;
+pub use host::{Lambda, Pairs, Reshade, Shading, Surfaces};
 pub use passes::Pass;
 pub use settings::*;
 pub use view::{View, ViewOptions};
+
+/// WGSL for a host's own shader, for [`Gradient::Reshade`]: `asvgf_surface(frame, repeats, pixel, depth, normal)` returns an
+/// `AsvgfSurface`: which point to shade in a pixel, and which pixel and frame to seed the random numbers from. It declares no
+/// bindings; bind [`Reshade`]'s two where you like, as `var<uniform> …: AsvgfFrame` and `texture_2d<u32>`.
+pub const RESHADE_WGSL: &str = include_str!("../shaders/host/reshade.wgsl");
 
 /// A host may record in any thread (in browsers GPU objects belong to one).
 #[cfg(not(target_arch = "wasm32"))]
