@@ -1,5 +1,7 @@
 //! Renders a scene, denoises it, and writes pictures: `cargo run --release --example render -- --help`.
 
+#[path = "support/arguments.rs"]
+mod arguments;
 #[path = "support/compare.rs"]
 mod compare;
 #[path = "support/film.rs"]
@@ -12,21 +14,27 @@ mod options;
 mod stage;
 #[path = "support/table.rs"]
 mod table;
+#[path = "support/times.rs"]
+mod times;
 #[path = "support/tone.rs"]
 mod tone;
+#[path = "support/tracing.rs"]
+mod tracing;
 
+use arguments::{Format, Usage};
 use asvgf::scene::GpuScene;
 use asvgf::{Gradient, Settings, View, image_io};
 use compare::Tile;
 use film::Film;
 use gpu::Gpu;
 use indicatif::{ProgressBar, ProgressStyle};
-use options::{Format, Options, Request, Usage, Viewpoint};
+use options::{Options, Request, Viewpoint};
 use stage::Stage;
 use std::error::Error;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use tracing::Reference;
 
 fn main() -> ExitCode {
     let result = match options::parse(std::env::args_os().skip(1)) {
@@ -63,11 +71,11 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     // The other kind of α, with the same noise.
     let mut other = options.compare.map(|_| Film::new(&gpu, options.size, other(&options.settings))).transpose()?;
     let mut reference = (options.compare.or(options.reference))
-        .map(|_| Film::new(&gpu, options.size, reference_settings(&options.settings)))
+        .map(|_| Reference::new(&gpu, options.size, &options.settings))
         .transpose()?;
 
     let bar = progress(options);
-    let mut times = Vec::new();
+    let mut timed = Vec::new();
     let mut truth = Vec::new();
     let last = options.start_frame + options.frames - 1;
     for frame in options.start_frame..=last {
@@ -77,19 +85,19 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         scene.update(&gpu.device, &mut encoder, &pose)?;
         gpu.queue.submit([encoder.finish()]);
         let camera = stage.camera(&pose, frame);
-        times.push(film.render(&scene, camera, frame).map_err(|e| blame(e, &options.viewpoint))?);
+        timed.push(tracing::render(&mut film, &scene, camera, frame).map_err(|e| blame(e, &options.viewpoint))?);
         bar.inc(options.settings.tracer.samples.into());
         for &view in &options.outputs {
             write(options, &mut film, view, frame)?;
         }
         if let Some(other) = &mut other {
-            other.render(&scene, camera, frame)?;
+            tracing::render(other, &scene, camera, frame)?;
             bar.inc(options.settings.tracer.samples.into());
         }
         let paths = if frame == last { options.compare.max(options.reference) } else { options.reference };
-        if let (Some(film), Some(paths)) = (&mut reference, paths) {
+        if let (Some(reference), Some(paths)) = (&mut reference, paths) {
             bar.set_message(format!("reference of frame {frame}"));
-            truth = film.converge(&scene, camera, paths, |paths| bar.inc(paths.into()))?;
+            truth = reference.converge(&scene, camera, paths, |paths| bar.inc(paths.into()))?;
             if options.reference.is_some() {
                 write_reference(options, &truth, frame)?;
             }
@@ -103,7 +111,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         say(&table::plan(plan, &scene.traits()));
     }
     let rays = film.numbers(View::Rays)?.iter().map(|pixel| f64::from(pixel[0])).sum();
-    say(&table::times(&times, rays, options, &gpu));
+    say(&times::table(&timed, Some(rays), options.size, &gpu));
     let pictures = if options.compare.is_some() { ", and comparison.png" } else { "" };
     say(&format!("{} frames in {}{pictures}\n", options.frames, options.out.display()));
     Ok(())
@@ -143,13 +151,6 @@ fn other(settings: &Settings) -> Settings {
         ..settings.filter.clone()
     };
     Settings { filter, ..settings }
-}
-
-/// Paths that share no random number with those they are compared with.
-fn reference_settings(settings: &Settings) -> Settings {
-    let mut settings = Settings { mode: asvgf::Mode::Reference, ..settings.clone() };
-    settings.tracer.seed ^= 0x5eed_0000;
-    settings
 }
 
 /// An error of the camera is one of the options that made it.

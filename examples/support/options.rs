@@ -1,11 +1,10 @@
 //! The command line of `render`.
 
+use crate::arguments::{Format, Usage, Value};
 use asvgf::scene::builtin;
 use asvgf::{Gradient, Settings, View};
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
-use std::fmt;
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// What `--help` prints.
@@ -80,24 +79,6 @@ Exit status: 0 done, 1 failed, 2 wrong usage.
 /// Paths per pixel of a comparison's reference, where no other number is said.
 const REFERENCE: u32 = 64;
 
-/// What is wrong with the command line.
-#[derive(Debug)]
-pub struct Usage(pub String);
-
-impl fmt::Display for Usage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for Usage {}
-
-impl From<lexopt::Error> for Usage {
-    fn from(error: lexopt::Error) -> Self {
-        Self(error.to_string())
-    }
-}
-
 /// What the command line asks for.
 #[derive(Debug)]
 pub enum Request {
@@ -110,13 +91,6 @@ pub enum Request {
 pub enum Source {
     BuiltIn(String),
     File(PathBuf),
-}
-
-/// The file formats.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Format {
-    Png,
-    Exr,
 }
 
 /// What overrides the scene's own camera.
@@ -293,12 +267,7 @@ fn exists(view: View, settings: &Settings) -> bool {
     view != View::Gradient || settings.filter.gradient != Gradient::Off
 }
 
-/// An option with its value.
-struct Value {
-    option: String,
-    text: String,
-}
-
+/// What is only said of a rendering.
 impl Value {
     fn set(&self, options: &mut Options, filter: &mut Filter) -> Result<(), Usage> {
         let tracer = &mut options.settings.tracer;
@@ -335,20 +304,6 @@ impl Value {
         Ok(())
     }
 
-    fn wrong(&self, reason: impl fmt::Display) -> Usage {
-        Usage(format!("--{} {}: {reason}", self.option, self.text))
-    }
-
-    fn whole(&self, range: RangeInclusive<u32>) -> Result<u32, Usage> {
-        let value = self.text.parse().ok().filter(|value| range.contains(value));
-        value.ok_or_else(|| self.wrong(format!("must be a whole number from {} to {}", range.start(), range.end())))
-    }
-
-    fn number(&self, range: RangeInclusive<f32>) -> Result<f32, Usage> {
-        let value = self.text.parse().ok().filter(|value| range.contains(value));
-        value.ok_or_else(|| self.wrong(format!("must be a number from {} to {}", range.start(), range.end())))
-    }
-
     fn vector(&self) -> Result<[f32; 3], Usage> {
         let numbers: Option<Vec<f32>> =
             self.text.split(',').map(|t| t.trim().parse().ok().filter(|x: &f32| x.is_finite())).collect();
@@ -370,37 +325,6 @@ impl Value {
 
     fn gradient(&self) -> Result<Gradient, Usage> {
         self.one_of(&[("reshade", Gradient::Reshade), ("blinn-phong", Gradient::BlinnPhong), ("off", Gradient::Off)])
-    }
-
-    /// The constant, or `None` where α is to be adaptive.
-    fn alpha(&self) -> Result<Option<f32>, Usage> {
-        match (self.text.as_str(), self.text.strip_prefix("constant:")) {
-            ("adaptive", _) => Ok(None),
-            ("constant", _) => Ok(Some(0.2)),
-            (_, Some(alpha)) => {
-                let alpha = alpha.parse().ok().filter(|alpha| (0.0..=1.0).contains(alpha));
-                alpha.map(Some).ok_or_else(|| self.wrong("the constant must be a number from 0 to 1"))
-            }
-            _ => Err(self.wrong("must be adaptive, or constant:A as in constant:0.2")),
-        }
-    }
-
-    fn one_of<T: Copy>(&self, known: &[(&str, T)]) -> Result<T, Usage> {
-        let found = known.iter().find(|(name, _)| *name == self.text).map(|(_, value)| *value);
-        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
-        found.ok_or_else(|| self.wrong(format!("must be one of {}", names.join(", "))))
-    }
-
-    /// The items between commas, each once.
-    fn list<T: PartialEq>(&self, item: impl Fn(&Self) -> Result<T, Usage>) -> Result<Vec<T>, Usage> {
-        let mut items = Vec::new();
-        for text in self.text.split(',') {
-            let value = item(&Self { option: self.option.clone(), text: text.trim().into() })?;
-            if !items.contains(&value) {
-                items.push(value);
-            }
-        }
-        Ok(items)
     }
 }
 
