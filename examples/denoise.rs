@@ -2,6 +2,7 @@
 
 #[path = "support/arguments.rs"]
 mod arguments;
+#[allow(dead_code, reason = "shared with `render`, which writes sequences")]
 #[path = "support/camera.rs"]
 mod camera;
 #[path = "support/denoise_options.rs"]

@@ -2,12 +2,20 @@
 
 #[path = "support/arguments.rs"]
 mod arguments;
+#[allow(dead_code, reason = "shared with `denoise`, which reads what is written here")]
+#[path = "support/camera.rs"]
+mod camera;
 #[path = "support/compare.rs"]
 mod compare;
+#[path = "support/export.rs"]
+mod export;
 #[path = "support/film.rs"]
 mod film;
 #[path = "support/gpu.rs"]
 mod gpu;
+#[allow(dead_code, reason = "shared with `denoise`, which reads what is written here")]
+#[path = "support/layers.rs"]
+mod layers;
 #[path = "support/options.rs"]
 mod options;
 #[path = "support/stage.rs"]
@@ -76,6 +84,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 
     let bar = progress(options);
     let mut timed = Vec::new();
+    let mut cameras = Vec::new();
     let mut truth = Vec::new();
     let last = options.start_frame + options.frames - 1;
     for frame in options.start_frame..=last {
@@ -89,6 +98,10 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         bar.inc(options.settings.tracer.samples.into());
         for &view in &options.outputs {
             write(options, &mut film, view, frame)?;
+        }
+        if options.sequence {
+            export::write_frame(&options.out.join(format!("frame_{frame:04}.exr")), &mut film)?;
+            cameras.push(camera);
         }
         if let Some(other) = &mut other {
             tracing::render(other, &scene, camera, frame)?;
@@ -105,6 +118,9 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     if let Some(other) = &mut other {
         write_comparison(options, &mut film, other, truth)?;
+    }
+    if options.sequence {
+        export::write_manifest(&options.out, options.size, &cameras)?;
     }
     bar.finish_and_clear();
     if let Some(plan) = film.denoiser.plan().filter(|_| options.explain) {

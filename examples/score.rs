@@ -1,5 +1,6 @@
 //! Scores a denoised sequence against its references: `cargo run --release --example score -- OUT_DIR IN_DIR`.
 
+#[allow(dead_code, reason = "shared with `denoise`")]
 #[path = "support/camera.rs"]
 mod camera;
 #[path = "support/layers.rs"]
@@ -73,7 +74,7 @@ fn score(out: &Path, input: &Path) -> Result<(), Box<dyn Error>> {
     let mut scores = [const { Vec::new() }; 3];
     let mut before: Option<Frame> = None;
     for frame in sequence.first..=sequence.last {
-        let now = read(&sequence, out, frame)?;
+        let now = read(&sequence, out, input, frame)?;
         scores[0].push(metrics::rel_mse(&now.pair()));
         scores[1].push(metrics::bias(&now.pair()));
         if let Some(before) = &before {
@@ -88,10 +89,10 @@ fn score(out: &Path, input: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn read(sequence: &Sequence, out: &Path, frame: u32) -> Result<Frame, Box<dyn Error>> {
+fn read(sequence: &Sequence, out: &Path, input: &Path, frame: u32) -> Result<Frame, Box<dyn Error>> {
     let pixels = sequence.read(frame)?;
     let image = colors(sequence, &out.join(format!("denoised_{frame:04}.exr")))?;
-    let reference = colors(sequence, &sequence.reference_path(frame))?;
+    let reference = colors(sequence, &input.join(format!("reference_{frame:04}.exr")))?;
     let depth = pixels.get(Layer::Depth).unwrap_or_default();
     let emission = pixels.get(Layer::Emission);
     let emits = |i: usize| emission.is_some_and(|e| e[3 * i..3 * i + 3].iter().any(|&x| x > 0.0));

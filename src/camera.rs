@@ -259,4 +259,116 @@ mod tests {
         assert_eq!(named(Camera { fov_y: 3.2, ..c }), "fov_y");
         assert_eq!(named(Camera { fov_y: 0.0, ..c }), "fov_y");
     }
+
+    /// The same view by a matrix: right-handed, looking along −Z.
+    #[cfg(feature = "path-tracer")]
+    fn view_rh(c: &Camera) -> glam::Mat4 {
+        glam::camera::rh::view::look_at_mat4(c.eye.into(), c.target.into(), c.up.into())
+    }
+
+    #[cfg(feature = "path-tracer")]
+    fn oblique() -> Camera {
+        let (eye, target, up) = ([1.0, 2.5, 3.0], [-0.5, 0.4, -1.0], [0.1, 1.0, 0.2]);
+        Camera { eye, target, up, fov_y: 0.9, jitter: [0.25, -0.125] }
+    }
+
+    #[cfg(feature = "path-tracer")]
+    fn assert_same(found: &CameraUniform, expected: &CameraUniform, what: &str) {
+        let numbers = |u: &CameraUniform| -> Vec<f32> { bytemuck::cast_slice(bytemuck::bytes_of(u)).to_vec() };
+        for (i, (f, e)) in numbers(found).iter().zip(numbers(expected)).enumerate() {
+            assert!((f - e).abs() <= 2e-6 * e.abs().max(1.0), "{what}: number {i} is {f}, not {e}");
+        }
+    }
+
+    #[test]
+    #[cfg(feature = "path-tracer")]
+    fn matrices_of_every_convention_give_the_same_camera() {
+        use glam::camera::{lh, rh};
+        let c = oblique();
+        let (size, aspect, fov) = ([64, 48], 64.0 / 48.0, c.fov_y);
+        let expected = c.uniform(size).unwrap();
+        let right = view_rh(&c);
+        // The same world, looking along +Z of a view space that is its mirror image.
+        let left = glam::Mat4::from_scale(glam::Vec3::new(1.0, 1.0, -1.0)) * right;
+        // OpenGL's depth of −1…1, WebGPU's of 0…1, endless, reversed, and both; a projection may be scaled as a whole.
+        let conventions = [
+            ("rh gl", right, rh::proj::opengl::perspective(fov, aspect, 0.1, 50.0)),
+            ("rh", right, rh::proj::directx::perspective(fov, aspect, 0.1, 50.0)),
+            ("rh reversed", right, rh::proj::directx::perspective(fov, aspect, 50.0, 0.1)),
+            ("rh endless", right, rh::proj::directx::perspective_infinite(fov, aspect, 0.1)),
+            ("rh endless reversed", right, rh::proj::directx::perspective_infinite_reverse(fov, aspect, 0.1)),
+            ("lh", left, lh::proj::directx::perspective(fov, aspect, 0.1, 50.0)),
+            ("lh endless reversed", left, lh::proj::directx::perspective_infinite_reverse(fov, aspect, 0.1)),
+            ("scaled", left, lh::proj::directx::perspective(fov, aspect, 0.1, 50.0) * 3.0),
+        ];
+        for (what, view, projection) in conventions {
+            let (view, projection) = (view.to_cols_array_2d(), projection.to_cols_array_2d());
+            assert_same(&Matrices { view, projection, jitter: c.jitter }.uniform(size).unwrap(), &expected, what);
+        }
+    }
+
+    /// Where matrices put points, against the ray of that place: for frusta and worlds that no [`Camera`] describes.
+    #[test]
+    #[cfg(feature = "path-tracer")]
+    fn points_are_seen_where_matrices_put_them() {
+        use glam::camera::lh;
+        use glam::{Mat4, Vec3, Vec4};
+        let c = oblique();
+        let size = [64.0_f32, 48.0];
+        let (l, r, b, t, n) = (-0.2, 0.5, -0.1, 0.4, 0.3);
+        let off_centre = Mat4::from_cols(
+            Vec4::new(2.0 * n / (r - l), 0.0, 0.0, 0.0),
+            Vec4::new(0.0, 2.0 * n / (t - b), 0.0, 0.0),
+            Vec4::new((r + l) / (r - l), (t + b) / (t - b), -1.0, -1.0),
+            Vec4::new(0.0, 0.0, -n, 0.0),
+        );
+        // And a world that is left-handed itself.
+        let left = lh::view::look_at_mat4(c.eye.into(), c.target.into(), c.up.into());
+        let views = [(view_rh(&c), off_centre), (left, lh::proj::directx::perspective(0.9, 0.7, 0.1, 50.0))];
+        let points = [Vec3::new(-0.4, 0.3, -1.5), Vec3::new(0.2, -0.1, 0.3), Vec3::new(-1.5, 1.0, -4.0)];
+        for ((view, projection), point) in views.into_iter().flat_map(|v| points.map(|p| (v, p))) {
+            let matrices =
+                Matrices { view: view.to_cols_array_2d(), projection: projection.to_cols_array_2d(), jitter: [0.0; 2] };
+            let u = matrices.uniform([64, 48]).unwrap();
+            let clip = projection * view * point.extend(1.0);
+            let (x, y) = ((clip.x / clip.w + 1.0) / 2.0 * size[0], (1.0 - clip.y / clip.w) / 2.0 * size[1]);
+            let d = along(&u, x.into(), y.into());
+            for axis in 0..3 {
+                // Linear depth is what a perspective projection divides by.
+                let found = f64::from(u.eye[axis]) + f64::from(clip.w) * d[axis];
+                assert!((found - f64::from(point[axis])).abs() < 1e-4, "{point}: {found} on axis {axis}");
+            }
+        }
+    }
+
+    #[test]
+    fn impossible_matrices_are_refused_by_name() {
+        let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+        let projection = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 0.1, 0.0]];
+        let good = Matrices { view: unit, projection, jitter: [0.0; 2] };
+        assert!(good.uniform([8, 8]).is_ok());
+        let named = |m: Matrices| match Viewpoint::from(m).uniform([8, 8]) {
+            Err(Error::Camera { element, .. }) => element,
+            other => panic!("{other:?}"),
+        };
+        let with = |matrix: [[f32; 4]; 4], column: usize, row: usize, value: f32| {
+            let mut matrix = matrix;
+            matrix[column][row] = value;
+            matrix
+        };
+        for view in [with(unit, 0, 0, 2.0), with(unit, 3, 1, f32::NAN), with(unit, 1, 0, 0.5), with(unit, 0, 3, 1.0)] {
+            assert_eq!(named(Matrices { view, ..good }), "view");
+        }
+        // Orthographic, singular, sheared, not finite.
+        let orthographic = with(with(projection, 2, 3, 0.0), 3, 3, 1.0);
+        for projection in [
+            orthographic,
+            with(projection, 0, 0, 0.0),
+            with(projection, 1, 0, 0.5),
+            with(projection, 2, 2, f32::INFINITY),
+        ] {
+            assert_eq!(named(Matrices { projection, ..good }), "projection");
+        }
+        assert_eq!(named(Matrices { jitter: [f32::NAN, 0.0], ..good }), "jitter");
+    }
 }

@@ -18,10 +18,11 @@ pub struct Views {
 impl Views {
     /// Uploads a frame. Where there is no motion, that of points at rest is taken, or none if a camera is unknown.
     pub fn new(gpu: &Gpu, size: [u32; 2], pixels: &Pixels, cameras: Option<[Camera; 2]>) -> Self {
-        let views = Layer::ALL.map(|layer| pixels.get(layer).map(|samples| upload(gpu, size, layer, samples)));
-        let depth = pixels.get(Layer::Depth).unwrap_or_default();
+        let mut views = Layer::ALL.map(|layer| pixels.get(layer).map(|samples| upload(gpu, size, layer, samples)));
+        let depth = depths(pixels);
+        views[Layer::Depth as usize] = Some(upload(gpu, size, Layer::Depth, &depth));
         let given = views[Layer::Motion as usize].clone();
-        let motion = given.unwrap_or_else(|| upload(gpu, size, Layer::Motion, &motion(size, depth, cameras)));
+        let motion = given.unwrap_or_else(|| upload(gpu, size, Layer::Motion, &motion(size, &depth, cameras)));
         Self { views: views.into(), motion }
     }
 
@@ -65,6 +66,19 @@ pub fn denoise(
         denoiser.begin_frame_stepwise(device, encoder, &surfaces, &mut *after)?;
         denoiser.denoise_stepwise(device, encoder, &shading, after)
     })
+}
+
+/// The depths of what is to be filtered. A light that reflects nothing is not: its zeros would darken what lies beside it.
+fn depths(pixels: &Pixels) -> Vec<f32> {
+    let mut depths = pixels.get(Layer::Depth).unwrap_or_default().to_vec();
+    if let (Some(albedo), Some(emission)) = (pixels.get(Layer::Albedo), pixels.get(Layer::Emission)) {
+        for ((depth, a), e) in depths.iter_mut().zip(albedo.chunks_exact(3)).zip(emission.chunks_exact(3)) {
+            if a == [0.0; 3] && e != [0.0; 3] {
+                *depth = 0.0;
+            }
+        }
+    }
+    depths
 }
 
 /// The motion of points at rest between two cameras, this frame's first.

@@ -58,10 +58,12 @@ Output
   --outputs LIST        which images, separated by commas, or all           [denoised]
                         denoised, noisy, albedo, normal, depth, triangle-id, motion,
                         gradient, lambda, alpha, history-length, variance, non-finite,
-                        rays
+                        rays, emission, object, pair-now, pair-before
   --format LIST         png (tone-mapped), exr (numbers: linear radiance and the like
                         as 32-bit floats in R, G, B), or both as png,exr         [png]
   --exposure X          factor on radiance in PNG files                            [1]
+  --sequence            also write what the denoiser was fed with, as a sequence that the
+                        example `denoise` reads: frame_0000.exr … and manifest.json
   --reference SPP       also trace each frame with so many paths per pixel, unfiltered
   --compare[=SPP]       end with comparison.png: noisy, constant alpha, adaptive alpha
                         and reference (of so many paths, 64 if not said, or as many as
@@ -121,6 +123,7 @@ pub struct Options {
     pub reference: Option<u32>,
     /// Paths per pixel of the comparison's reference.
     pub compare: Option<u32>,
+    pub sequence: bool,
     pub explain: bool,
     pub list: bool,
 }
@@ -143,6 +146,7 @@ impl Default for Options {
             exposure: None,
             reference: None,
             compare: None,
+            sequence: false,
             explain: false,
             list: false,
         }
@@ -181,6 +185,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
                     None => Some(REFERENCE),
                 };
             }
+            "sequence" => options.sequence = true,
             "explain" => options.explain = true,
             "list" => options.list = true,
             "environment" => options.environment = Some(parser.value()?.into()),

@@ -73,12 +73,8 @@ impl Sequence {
         Ok(sequence)
     }
 
-    pub fn path(&self, frame: u32) -> PathBuf {
+    fn path(&self, frame: u32) -> PathBuf {
         self.folder.join(format!("frame_{frame:04}.exr"))
-    }
-
-    pub fn reference_path(&self, frame: u32) -> PathBuf {
-        self.folder.join(format!("reference_{frame:04}.exr"))
     }
 
     pub fn has(&self, layer: Layer) -> bool {
