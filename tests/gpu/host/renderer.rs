@@ -81,7 +81,9 @@ fn nothing_changed_is_exactly_nothing_whether_the_camera_moves_or_not() {
             stage.frame(&at(i), &at(i.saturating_sub(1)));
             assert_eq!(stage.largest(View::Lambda), 0.0, "frame {i}, walking: {walks}");
         }
-        assert!(stage.largest(View::HistoryLength) >= 12.0, "walking: {walks}");
+        // In twelve frames each pixel repeats a path at least once, and is not a new sample then.
+        let longest = stage.largest(View::HistoryLength);
+        assert!((10.0..12.0).contains(&longest), "walking: {walks}, {longest}");
     }
 }
 
