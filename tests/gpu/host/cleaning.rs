@@ -81,9 +81,9 @@ fn bad_pairs_are_left_out_and_counted() {
         // In each stratum's first pixel; every fifth is not finite.
         let mut values = vec![[-1.0_f32; 3]; frame.light.len()];
         let mut broken = 0;
-        for (k, i) in
-            (0..values.len()).filter(|i| i % SIZE[0] as usize % 3 == 0 && i / SIZE[0] as usize % 3 == 0).enumerate()
-        {
+        let [width, height] = SIZE.map(|s| s as usize);
+        let firsts = (0..height).step_by(3).flat_map(|y| (0..width).step_by(3).map(move |x| y * width + x));
+        for (k, i) in firsts.enumerate() {
             values[i] = [0.5; 3];
             if k % 5 == 0 {
                 (values[i][k % 3], broken) = (f32::NAN, broken + 1);

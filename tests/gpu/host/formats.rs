@@ -36,7 +36,9 @@ fn half(x: f64) -> u16 {
     }
     let exponent = x.abs().log2().floor();
     let mantissa = ((x.abs() / exponent.exp2() - 1.0) * 1024.0).round() as u16;
-    u16::from(x < 0.0) << 15 | (((exponent as i32 + 15) as u16) << 10) + mantissa
+    // A mantissa that is rounded up to 1024 carries into the exponent.
+    let magnitude = (((exponent as i32 + 15) as u16) << 10) + mantissa;
+    if x < 0.0 { magnitude | 0x8000 } else { magnitude }
 }
 
 fn image<const N: usize>(format: TextureFormat, values: &[[f64; N]]) -> TextureView {

@@ -21,8 +21,11 @@ fn unreadable(format: TextureFormat) -> TextureView {
     gpu().texture(SIZE, format, TextureUsages::COPY_DST).create_view(&Default::default())
 }
 
-/// A view of the wrong format, size and usage, and its error's name.
-fn wrong_views(name: &'static str, good: TextureFormat) -> [(TextureView, Box<dyn Fn(&Error) -> bool>); 4] {
+/// Whether an error is the one that is due.
+type Due = Box<dyn Fn(&Error) -> bool>;
+
+/// Views of the wrong format, size, usage and shape.
+fn wrong_views(name: &'static str, good: TextureFormat) -> [(TextureView, Due); 4] {
     let layers = gpu().device.create_texture(&wgpu::TextureDescriptor {
         label: None,
         size: wgpu::Extent3d { width: SIZE[0], height: SIZE[1], depth_or_array_layers: 2 },
