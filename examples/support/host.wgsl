@@ -26,10 +26,9 @@ struct Scene {
 @group(0) @binding(4) var albedo_out: texture_storage_2d<rgba8unorm, write>;
 
 @group(0) @binding(1) var<uniform> asvgf: AsvgfFrame;
-@group(0) @binding(2) var repeats: texture_2d<u32>;
-@group(0) @binding(3) var depth: texture_2d<f32>;
-@group(0) @binding(4) var normal: texture_2d<f32>;
-@group(0) @binding(5) var radiance_out: texture_storage_2d<rgba16float, write>;
+@group(0) @binding(2) var guide: texture_2d<u32>;
+@group(0) @binding(3) var repeats: texture_2d<u32>;
+@group(0) @binding(4) var radiance_out: texture_storage_2d<rgba16float, write>;
 
 const FAR: f32 = 1e9;
 const PI: f32 = 3.14159265;
@@ -105,16 +104,15 @@ fn pcg(x: u32) -> u32 {
 
 @compute @workgroup_size(8, 8)
 fn shade(@builtin(global_invocation_id) id: vec3<u32>) {
-    if any(id.xy >= textureDimensions(depth)) {
-        return;
-    }
-    let z = textureLoad(depth, id.xy, 0).x;
-    if z <= 0.0 {
-        textureStore(radiance_out, id.xy, vec4(0.3, 0.45, 0.7, 1.0));
+    if any(id.xy >= textureDimensions(guide)) {
         return;
     }
     // The only line that adaptive filtering asks for. From here on, nothing depends on the pixel.
-    let s = asvgf_surface(asvgf, repeats, id.xy, z, textureLoad(normal, id.xy, 0).xyz);
+    let s = asvgf_surface(asvgf, guide, repeats, id.xy);
+    if !s.hit {
+        textureStore(radiance_out, id.xy, vec4(0.3, 0.45, 0.7, 1.0));
+        return;
+    }
     let first = pcg(s.seed_pixel.x ^ pcg(s.seed_pixel.y ^ pcg(s.seed_frame)));
     let random = vec2(f32(first >> 8u), f32(pcg(first) >> 8u)) / 16777216.0;
     // One shadow ray to a point of the lamp, one to the sky.

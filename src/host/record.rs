@@ -111,8 +111,13 @@ impl Denoiser {
         let resources =
             Resources { given: &host, stack: 0, uniform: &uniform, target: None, counts: counts.as_ref(), show: None };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
-        let repeats = self.textures.now(Image::Repeats, self.parity).filter(|_| plan.features.has(Feature::Reshade));
-        let reshade = repeats.map(|repeats| Reshade { frame: uniform.clone(), repeats: repeats.clone() });
+        let image = |image| self.textures.now(image, self.parity).cloned();
+        let reshade = match (image(Image::Guide), image(Image::Repeats)) {
+            (Some(guide), Some(repeats)) if plan.features.has(Feature::Reshade) => {
+                Some(Reshade { frame: uniform.clone(), guide, repeats })
+            }
+            _ => None,
+        };
         self.begun = Some(Begun { moment, uniform, traits, counts, queries });
         Ok(reshade)
     }

@@ -81,8 +81,8 @@ fn check(features: &[Feature]) {
             }
             for (found, given) in found.into_iter().zip([current[at], previous[at]]) {
                 let value = |c: usize| if has(Feature::LuminancePairs) { given[0] } else { given[c] } / divisor[c];
-                for c in 0..3 {
-                    assert_close(found[c], value(c), 2e-5, || what());
+                for (c, found) in found.into_iter().enumerate() {
+                    assert_close(found, value(c), 2e-5, what);
                 }
             }
         }

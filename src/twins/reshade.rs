@@ -64,7 +64,7 @@ fn a_surface_is_shifted_by_what_it_moved_and_by_nothing_where_it_rests() {
             let expected = sub(bench.position(px, py, z), add(was.eye, scale(ray, m[2])));
             assert!(dot(sub(expected, shifts[i]), sub(expected, shifts[i])).sqrt() < 1e-4 * z, "{}", what());
             for c in 0..3 {
-                assert_close(float(texels[1][c]), expected[c], 2e-6 * (z + m[2]), || what());
+                assert_close(float(texels[1][c]), expected[c], 2e-6 * (z + m[2]), what);
             }
         }
     }
