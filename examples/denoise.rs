@@ -5,6 +5,8 @@ mod arguments;
 #[allow(dead_code, reason = "shared with `render`, which writes sequences")]
 #[path = "support/camera.rs"]
 mod camera;
+#[path = "support/camera_fit.rs"]
+mod camera_fit;
 #[path = "support/denoise_options.rs"]
 mod denoise_options;
 #[path = "support/film.rs"]
@@ -22,14 +24,12 @@ mod times;
 
 use arguments::{Format, Usage};
 use asvgf::{FilterSettings, Gradient, Settings, image_io};
-use camera::Camera;
 use denoise_options::{Options, Request};
 use film::Film;
 use gpu::Gpu;
-use hosted::Views;
 use indicatif::{ProgressBar, ProgressStyle};
 use layers::Layer;
-use sequence::Sequence;
+use sequence::{Eye, Sequence};
 use std::error::Error;
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -58,10 +58,11 @@ fn main() -> ExitCode {
 
 fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let bar = progress("looking at frames");
-    let sequence = Sequence::open(&options.input, options.names.clone(), |frames| {
+    let mut sequence = Sequence::open(&options.input, options.names.clone(), options.fov_y, |frames| {
         bar.set_length(frames.into());
         bar.inc(1);
     })?;
+    sequence.in_place |= options.in_place;
     bar.finish_and_clear();
     let gradient = source(options, &sequence);
     eprint!("{}", summary(options, &sequence, gradient));
@@ -71,24 +72,15 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all(&options.out).map_err(|e| format!("--out {}: {e}", options.out.display()))?;
     let bar = progress("denoising");
     bar.set_length((sequence.last - sequence.first + 1).into());
-    let fov_y = options.fov_y.unwrap_or(DEFAULT_FOV_Y);
-    let camera = |frame| sequence.camera(frame).unwrap_or_else(|| Camera::at_rest(fov_y.into(), sequence.size));
-    let mut timed = Vec::new();
-    for frame in sequence.first..=sequence.last {
-        let cameras = [camera(frame), camera(frame.saturating_sub(1).max(sequence.first))];
-        let views = Views::new(&gpu, sequence.size, &sequence.read(frame)?, sequence.cameras.as_ref().map(|_| cameras));
-        timed.push(hosted::denoise(&mut film, &views, cameras[0], frame, options.in_place || sequence.in_place)?);
-        write(options, &mut film, frame)?;
+    let timed = hosted::denoise(&mut film, &sequence, |frame, film| {
         bar.inc(1);
-    }
+        write(options, film, frame)
+    })?;
     bar.finish_and_clear();
     say(&times::table(&timed, None, sequence.size, &gpu));
     say(&format!("{} frames in {}\n", timed.len(), options.out.display()));
     Ok(())
 }
-
-/// Where neither the sequence nor the user says.
-const DEFAULT_FOV_Y: f32 = std::f32::consts::FRAC_PI_4;
 
 /// What makes α adaptive: what there is.
 fn source(options: &Options, sequence: &Sequence) -> Gradient {
@@ -124,14 +116,20 @@ fn summary(options: &Options, sequence: &Sequence, gradient: Gradient) -> String
     if gradient == Gradient::Off && options.constant.is_none() {
         out += "note: without gradient or lambda alpha does not adapt, and changes of light lag; try --alpha constant:0.1\n";
     }
-    if sequence.cameras.is_none() {
-        out += "note: no cameras in manifest.json: one at the origin is taken, that looks along -Z with +Y up; normals \
-                should be in its space, and --fov-y right\n";
-    }
+    out += match sequence.eye {
+        Eye::Given => "",
+        Eye::Fitted => {
+            "note: no cameras in manifest.json: they were derived from normals and depth, but for where they are\n"
+        }
+        Eye::Assumed => {
+            "note: no cameras in manifest.json: one at the origin is taken, that looks along -Z with +Y up; normals should be in \
+             its space, and --fov-y right\n"
+        }
+    };
     if !sequence.has(Layer::Motion) {
-        out += match sequence.cameras {
-            Some(_) => "note: motion is absent: only the camera is taken to move\n",
-            None => "note: motion and cameras are absent: nothing is taken to move\n",
+        out += match sequence.eye {
+            Eye::Given => "note: motion is absent: only the camera is taken to move\n",
+            Eye::Fitted | Eye::Assumed => "note: motion is absent: the camera is taken to turn, and nothing to move\n",
         };
     }
     out

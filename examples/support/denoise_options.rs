@@ -37,7 +37,9 @@ Input
   --map LAYER=NAME      where a layer is in the files: the channels NAME.R, NAME.G, NAME.B and
                         the like, or the one channel NAME. LAYER is color, or what stands
                         before the dot above. May be given more than once
-  --fov-y DEGREES       vertical field of view, 0.01…179, where there is no manifest [45]
+  --fov-y DEGREES       vertical field of view, 0.01…179, of a camera that looks along −Z of
+                        the normals' space, where there is no manifest  [derived from the
+                        frames: normals and depth of planes tell, else 45]
   --in-place            the gradient's paths are those of the pixels themselves, and so no
                         samples of their own        [what manifest.json says, if anything]
 

@@ -4,20 +4,36 @@ use crate::camera::Camera;
 use crate::film::Film;
 use crate::gpu::Gpu;
 use crate::layers::Layer;
-use crate::sequence::Pixels;
+use crate::sequence::{Pixels, Sequence};
 use crate::times::PassTimes;
 use asvgf::wgpu::{self, TextureFormat, TextureUsages, TextureView};
 use asvgf::{Error, Gradient, Lambda, Pairs, Shading, Surfaces};
 
+/// Denoises a sequence, calling back after each frame.
+pub fn denoise(
+    film: &mut Film<'_>,
+    sequence: &Sequence,
+    mut done: impl FnMut(u32, &mut Film<'_>) -> Result<(), Box<dyn std::error::Error>>,
+) -> Result<Vec<PassTimes>, Box<dyn std::error::Error>> {
+    let mut times = Vec::new();
+    for frame in sequence.first..=sequence.last {
+        let cameras = [frame, frame.saturating_sub(1).max(sequence.first)].map(|frame| sequence.camera(frame));
+        let views = Views::new(film.gpu, sequence.size, &sequence.read(frame)?, cameras);
+        times.push(expose(film, &views, cameras[0], frame, sequence.in_place)?);
+        done(frame, film)?;
+    }
+    Ok(times)
+}
+
 /// A frame's layers on the GPU.
-pub struct Views {
+struct Views {
     views: Vec<Option<TextureView>>,
     motion: TextureView,
 }
 
 impl Views {
-    /// Uploads a frame. Where there is no motion, that of points at rest is taken, or none if a camera is unknown.
-    pub fn new(gpu: &Gpu, size: [u32; 2], pixels: &Pixels, cameras: Option<[Camera; 2]>) -> Self {
+    /// Uploads a frame. Where there is no motion, that of points at rest between the last camera and this one is taken.
+    fn new(gpu: &Gpu, size: [u32; 2], pixels: &Pixels, cameras: [Camera; 2]) -> Self {
         let mut views = Layer::ALL.map(|layer| pixels.get(layer).map(|samples| upload(gpu, size, layer, samples)));
         let depth = depths(pixels);
         views[Layer::Depth as usize] = Some(upload(gpu, size, Layer::Depth, &depth));
@@ -32,13 +48,7 @@ impl Views {
 }
 
 /// Denoises a frame and waits for it.
-pub fn denoise(
-    film: &mut Film<'_>,
-    views: &Views,
-    camera: Camera,
-    index: u32,
-    in_place: bool,
-) -> Result<PassTimes, Error> {
+fn expose(film: &mut Film<'_>, views: &Views, camera: Camera, index: u32, in_place: bool) -> Result<PassTimes, Error> {
     let device = &film.gpu.device;
     film.expose(|denoiser, encoder, target, after| {
         let missing = |view| Error::ViewMissing { view, setting: "a sequence", remedy: "add the layer to its frames" };
@@ -82,8 +92,7 @@ fn depths(pixels: &Pixels) -> Vec<f32> {
 }
 
 /// The motion of points at rest between two cameras, this frame's first.
-fn motion(size: [u32; 2], depth: &[f32], cameras: Option<[Camera; 2]>) -> Vec<f32> {
-    let Some([now, before]) = cameras else { return vec![0.0; 2 * depth.len()] };
+fn motion(size: [u32; 2], depth: &[f32], [now, before]: [Camera; 2]) -> Vec<f32> {
     let pixel = |i: usize| [i as u32 % size[0], i as u32 / size[0]];
     let motion = |(i, &z): (usize, &f32)| now.motion_to(&before, pixel(i), z.into(), size).map(|m| m as f32);
     depth.iter().enumerate().flat_map(motion).collect()

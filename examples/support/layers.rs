@@ -114,7 +114,11 @@ impl Layer {
             ],
             // Blender's Vector holds previous − current in X and Y, and Y is up.
             Self::Motion => &[Alias("Vector", XY, Upwards)],
-            Self::Id => &[Alias("IndexOB", &["X"], Same), Alias("Object Index", &["X"], Same), Alias("shape_index", &["I"], Same)],
+            Self::Id => &[
+                Alias("IndexOB", &["X"], Same),
+                Alias("Object Index", &["X"], Same),
+                Alias("shape_index", &["I"], Same),
+            ],
             Self::PreviousDepth | Self::GradientCurrent | Self::GradientPrevious | Self::Lambda => &[],
         }
     }
@@ -152,11 +156,19 @@ fn own(layer: Layer, name: &str, image: &Channels) -> Result<Place, String> {
     let single = if layer.components().len() == 1 { exact(&whole, Meaning::Same, image) } else { None };
     let usual = [layer.components(), RGB, XYZ, XY, &["r", "g", "b"], &["x", "y", "z"], &["V"]];
     let fitting = usual.into_iter().filter(|components| components.len() == layer.components().len());
-    let prefixed =
-        || fitting.into_iter().find_map(|c| exact(&c.iter().map(|c| join(name, c)).collect::<Vec<_>>(), Meaning::Same, image));
+    let prefixed = || {
+        fitting
+            .into_iter()
+            .find_map(|c| exact(&c.iter().map(|c| join(name, c)).collect::<Vec<_>>(), Meaning::Same, image))
+    };
     single.or_else(prefixed).ok_or_else(|| {
         let wanted: Vec<String> = layer.components().iter().map(|c| join(name, c)).collect();
-        format!("there is no channel {}, which --map {}={name} asks for; {}", wanted.join(", "), layer.name(), known(image))
+        format!(
+            "there is no channel {}, which --map {}={name} asks for; {}",
+            wanted.join(", "),
+            layer.name(),
+            known(image)
+        )
     })
 }
 

@@ -1,6 +1,7 @@
 //! A folder of frames: `frame_0000.exr`, `frame_0001.exr`, …, and what `manifest.json` says of them.
 
-use crate::camera::Camera;
+use crate::camera::{Camera, dot};
+use crate::camera_fit;
 use crate::layers::{self, Layer, Meaning, Names, Place};
 use asvgf::image_io::{self, Channels};
 use serde_json::Value;
@@ -24,6 +25,20 @@ fn wrong(file: &Path, reason: impl fmt::Display) -> SequenceError {
     SequenceError(format!("{}: {reason}", file.display()))
 }
 
+/// How the cameras are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Eye {
+    /// From the manifest.
+    Given,
+    /// From the frames themselves, but for where they are.
+    Fitted,
+    /// Not at all.
+    Assumed,
+}
+
+/// What is taken where nothing tells.
+const DEFAULT_FOV_Y: f32 = std::f32::consts::FRAC_PI_4;
+
 /// Frames that were looked at, each: all are whole, of one size, and have the same layers.
 #[derive(Debug)]
 pub struct Sequence {
@@ -35,8 +50,10 @@ pub struct Sequence {
     pub size: [u32; 2],
     /// What there is of every frame.
     pub layers: Vec<Layer>,
-    /// One for each frame, if they are known.
-    pub cameras: Option<Vec<Camera>>,
+    /// One for each frame, or one for all.
+    pub cameras: Vec<Camera>,
+    /// How they are known.
+    pub eye: Eye,
     /// The gradient's paths stand in the colour in the place of their pixels' own.
     pub in_place: bool,
 }
@@ -52,8 +69,14 @@ impl Pixels {
 }
 
 impl Sequence {
-    /// Looks at every frame, calling back after each with how many there are.
-    pub fn open(folder: &Path, names: Names, mut looked: impl FnMut(u32)) -> Result<Self, SequenceError> {
+    /// Looks at every frame, calling back after each with how many there are. A vertical field of view (in radians) says that
+    /// there is a camera at the origin, where there is no other.
+    pub fn open(
+        folder: &Path,
+        names: Names,
+        fov_y: Option<f32>,
+        mut looked: impl FnMut(u32),
+    ) -> Result<Self, SequenceError> {
         let (first, last) = numbers(folder)?;
         let mut sequence = Self {
             folder: folder.to_owned(),
@@ -62,13 +85,23 @@ impl Sequence {
             last,
             size: [0; 2],
             layers: Vec::new(),
-            cameras: None,
+            cameras: Vec::new(),
+            eye: Eye::Given,
             in_place: false,
         };
         sequence.read_manifest()?;
+        let given = !sequence.cameras.is_empty();
+        let mut fitted = Some(Vec::new()).filter(|_| !given && fov_y.is_none());
         for frame in first..=last {
-            sequence.look_at(frame)?;
+            let image = sequence.look_at(frame)?;
+            fitted = fitted.and_then(|list| Some([list, vec![sequence.fit(frame, &image)?]].concat()));
             looked(last - first + 1);
+        }
+        if let Some(cameras) = fitted {
+            (sequence.cameras, sequence.eye) = (cameras, Eye::Fitted);
+        } else if !given {
+            let assumed = Camera::at_rest(fov_y.unwrap_or(DEFAULT_FOV_Y).into(), sequence.size);
+            (sequence.cameras, sequence.eye) = (vec![assumed], Eye::Assumed);
         }
         Ok(sequence)
     }
@@ -81,8 +114,9 @@ impl Sequence {
         self.layers.contains(&layer)
     }
 
-    pub fn camera(&self, frame: u32) -> Option<Camera> {
-        Some(self.cameras.as_ref()?[(frame - self.first) as usize])
+    pub fn camera(&self, frame: u32) -> Camera {
+        let index = (frame - self.first) as usize;
+        self.cameras[index.min(self.cameras.len() - 1)]
     }
 
     /// Reads a frame.
@@ -107,7 +141,10 @@ impl Sequence {
         }
         let pairs = [Layer::GradientCurrent, Layer::GradientPrevious];
         if let [Some(_), None] | [None, Some(_)] = pairs.map(|layer| places[layer as usize].as_ref()) {
-            return Err(wrong(path, "gradient.current and gradient.previous only mean something together; one is missing"));
+            return Err(wrong(
+                path,
+                "gradient.current and gradient.previous only mean something together; one is missing",
+            ));
         }
         Ok(places)
     }
@@ -124,9 +161,8 @@ impl Sequence {
                 Meaning::Upwards => samples.extend(values.enumerate().map(|(c, v)| if c == 1 { -v } else { v })),
                 Meaning::AlongRay => {
                     let pixel = [i as u32 % width, i as u32 / width];
-                    // Without a camera there is nothing to divide by.
-                    let ray = self.camera(frame).map_or([1.0, 0.0, 0.0], |camera| camera.ray(pixel, self.size));
-                    let length = crate::camera::dot(ray, ray).sqrt();
+                    let ray = self.camera(frame).ray(pixel, self.size);
+                    let length = dot(ray, ray).sqrt();
                     samples.extend(values.map(|v| (f64::from(v) / length) as f32));
                 }
             }
@@ -134,8 +170,17 @@ impl Sequence {
         samples
     }
 
+    /// The camera that a frame shows by its normals and depths.
+    fn fit(&self, frame: u32, image: &Channels) -> Option<Camera> {
+        let place = |layer| layers::find(layer, &self.names, image).ok().flatten();
+        // A distance along the ray is no depth before the ray is known.
+        let depth = place(Layer::Depth).filter(|place| place.meaning == Meaning::Same)?;
+        let samples = |place: &Place| self.samples(frame, place, image);
+        camera_fit::fit(&samples(&place(Layer::Normal)?), &samples(&depth), self.size)
+    }
+
     /// Reads a frame whole and compares it with the first.
-    fn look_at(&mut self, frame: u32) -> Result<(), SequenceError> {
+    fn look_at(&mut self, frame: u32) -> Result<Channels, SequenceError> {
         let path = self.path(frame);
         if !path.exists() {
             let (first, last) = (self.first, self.last);
@@ -147,22 +192,27 @@ impl Sequence {
         let size = [image.width, image.height];
         if frame == self.first {
             (self.size, self.layers) = (size, found);
-            return Ok(());
+            return Ok(image);
         }
         let start = format!("frame_{:04}.exr", self.first);
         if size != self.size {
             let ([w, h], [width, height]) = (size, self.size);
-            return Err(wrong(&path, format!("is {w}×{h} pixels, and {start} is {width}×{height}: all must be of one size")));
+            return Err(wrong(
+                &path,
+                format!("is {w}×{h} pixels, and {start} is {width}×{height}: all must be of one size"),
+            ));
         }
         for layer in Layer::ALL {
             let channels = layer.channels().join(", ");
             match (found.contains(&layer), self.has(layer)) {
-                (false, true) => return Err(wrong(&path, format!("there is no channel {channels}, which {start} has"))),
+                (false, true) => {
+                    return Err(wrong(&path, format!("there is no channel {channels}, which {start} has")));
+                }
                 (true, false) => return Err(wrong(&path, format!("has {channels}, which {start} has not"))),
                 _ => {}
             }
         }
-        Ok(())
+        Ok(image)
     }
 
     /// Takes the cameras, and whether the gradient is in place, where there is a manifest.
@@ -181,7 +231,7 @@ impl Sequence {
             return Err(wrong(&path, format!("has {found} cameras for {frames} frames: give one for each, in order")));
         }
         let camera = |(i, value)| Camera::from_json(value).map_err(|e| wrong(&path, format!("camera {i}: {e}")));
-        self.cameras = Some(list.iter().take(frames).enumerate().map(camera).collect::<Result<_, _>>()?);
+        self.cameras = list.iter().take(frames).enumerate().map(camera).collect::<Result<_, _>>()?;
         Ok(())
     }
 }
@@ -196,6 +246,7 @@ fn numbers(folder: &Path) -> Result<(u32, u32), SequenceError> {
     };
     let numbers: Vec<u32> = entries.filter_map(|entry| number(entry.ok()?)).collect();
     let range = numbers.iter().min().zip(numbers.iter().max());
-    let (&first, &last) = range.ok_or_else(|| wrong(folder, "there are no frames: they are called frame_0000.exr, …"))?;
+    let (&first, &last) =
+        range.ok_or_else(|| wrong(folder, "there are no frames: they are called frame_0000.exr, …"))?;
     Ok((first, last))
 }
