@@ -97,7 +97,10 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         timed.push(tracing::render(&mut film, &scene, camera, frame).map_err(|e| blame(e, &options.viewpoint))?);
         bar.inc(options.settings.tracer.samples.into());
         for &view in &options.outputs {
-            write(options, &mut film, view, frame)?;
+            match write(options, &mut film, view, frame) {
+                Err(error) if options.every_output && is_absent(&*error) => {}
+                result => result?,
+            }
         }
         if options.sequence {
             export::write_frame(&options.out.join(format!("frame_{frame:04}.exr")), &mut film)?;
@@ -177,6 +180,11 @@ fn blame(error: asvgf::Error, viewpoint: &Viewpoint) -> Box<dyn Error> {
         }
         _ => error.into(),
     }
+}
+
+/// Whether an image was asked for that the scene does not have.
+fn is_absent(error: &(dyn Error + 'static)) -> bool {
+    matches!(error.downcast_ref(), Some(asvgf::Error::NoView { .. }))
 }
 
 fn path(options: &Options, name: &str, frame: u32, format: Format) -> PathBuf {

@@ -204,7 +204,7 @@ fn solve(mut rows: [[f64; 5]; 4]) -> Option<[f64; 4]> {
         let largest = (pivot..4).max_by(|&a, &b| rows[a][pivot].abs().total_cmp(&rows[b][pivot].abs()))?;
         rows.swap(pivot, largest);
         let leading = rows[pivot];
-        if !(leading[pivot].abs() > 1e-12) {
+        if leading[pivot].abs() < 1e-12 {
             return None;
         }
         for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != pivot) {

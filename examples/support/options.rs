@@ -118,6 +118,8 @@ pub struct Options {
     pub settings: Settings,
     pub out: PathBuf,
     pub outputs: Vec<View>,
+    /// All were asked for: those that a scene does not have are passed over.
+    pub every_output: bool,
     pub formats: Vec<Format>,
     pub exposure: Option<f32>,
     pub reference: Option<u32>,
@@ -142,6 +144,7 @@ impl Default for Options {
             settings: Settings::adaptive(),
             out: "out".into(),
             outputs: vec![View::Denoised],
+            every_output: false,
             formats: vec![Format::Png],
             exposure: None,
             reference: None,
@@ -261,6 +264,7 @@ impl Filter {
         }
         options.settings = settings;
         if self.every_output {
+            options.every_output = true;
             options.outputs = View::ALL.into_iter().filter(|&view| exists(view, &options.settings)).collect();
         }
         Ok(())
