@@ -37,11 +37,10 @@
 //!     denoiser.denoise(device, encoder, &shading)
 //! }
 //! ```
-//!
-//! With the path tracer:
 #![cfg_attr(
     all(feature = "path-tracer", feature = "gltf"),
     doc = r#"
+With the path tracer:
 ```no_run
 use asvgf::{Camera, Denoiser, DenoiserDescriptor, Frame, scene, wgpu};
 
