@@ -295,14 +295,7 @@ impl Denoiser {
         self.parity ^= 1;
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         let given = |name: &str| scene.resource(name);
-        let resources = Resources {
-            given: &given,
-            stack: scene.stack(),
-            target: Some(target),
-            uniform: &uniform,
-            counts: None,
-            show: None,
-        };
+        let resources = Resources { stack: scene.stack(), target: Some(target), ..Resources::new(&given, &uniform) };
         self.record(device, encoder, &plan.steps, &resources, &mut queries, &mut after)?;
         if let (Some(timing), Some(queries)) = (&self.timing, queries) {
             timing.end(device, encoder, queries);
@@ -341,14 +334,9 @@ impl Denoiser {
                 contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
                 usage: BufferUsages::UNIFORM,
             });
-            let resources = Resources {
-                given: &|_| None,
-                stack: 0,
-                target: Some(target),
-                uniform: &last.uniform,
-                counts: None,
-                show: Some(&show),
-            };
+            let none = |_: &str| None;
+            let resources =
+                Resources { target: Some(target), show: Some(&show), ..Resources::new(&none, &last.uniform) };
             self.dispatch(device, encoder, &step, &resources, None)
         });
         self.last = Some(last);
@@ -495,6 +483,12 @@ pub(crate) struct Resources<'a> {
     pub target: Option<&'a TextureView>,
     pub counts: Option<&'a Buffer>,
     pub show: Option<&'a Buffer>,
+}
+
+impl<'a> Resources<'a> {
+    pub fn new(given: &'a dyn Fn(&str) -> Option<BindingResource<'a>>, uniform: &'a Buffer) -> Self {
+        Self { given, stack: 0, uniform, target: None, counts: None, show: None }
+    }
 }
 
 fn check_size(device: &Device, size: [u32; 2]) -> Result<(), Error> {

@@ -21,15 +21,7 @@
 //!     index: u32,
 //!     trace: impl FnOnce(&mut wgpu::CommandEncoder, Option<asvgf::Reshade>),
 //! ) -> Result<(), Error> {
-//!     let surfaces = Surfaces {
-//!         camera: camera.into(),
-//!         index,
-//!         depth: &images.depth,
-//!         normal: &images.normal,
-//!         motion: &images.motion,
-//!         previous_depth: None,
-//!         instance: None,
-//!     };
+//!     let surfaces = Surfaces::new(camera, index, &images.depth, &images.normal, &images.motion);
 //!     // One pixel of each 3×3 is to repeat a path of the last frame: `RESHADE_WGSL` tells the host's shader which.
 //!     let reshade = denoiser.begin_frame(device, encoder, &surfaces)?;
 //!     trace(encoder, reshade);

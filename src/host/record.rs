@@ -108,8 +108,7 @@ impl Denoiser {
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         self.parity ^= 1;
         let host = |name: &str| surfaces.resource(name);
-        let resources =
-            Resources { given: &host, stack: 0, uniform: &uniform, target: None, counts: counts.as_ref(), show: None };
+        let resources = Resources { counts: counts.as_ref(), ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
         let image = |image| self.textures.now(image, self.parity).cloned();
         let reshade = match (image(Image::Guide), image(Image::Repeats)) {
@@ -167,14 +166,8 @@ impl Denoiser {
             uniform = self.frame_uniform(device, &moment);
         }
         let host = |name: &str| shading.resource(name);
-        let resources = Resources {
-            given: &host,
-            stack: 0,
-            uniform: &uniform,
-            target: Some(shading.target),
-            counts: counts.as_ref(),
-            show: None,
-        };
+        let target = Some(shading.target);
+        let resources = Resources { counts: counts.as_ref(), target, ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
         if let (Some(timing), Some(queries)) = (&self.timing, queries) {
             timing.end(device, encoder, queries);
