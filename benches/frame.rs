@@ -1,4 +1,4 @@
-//! What a frame costs: `cargo bench --bench frame [-- FRAMES]`.
+//! What a frame costs: `cargo bench --bench frame [-- [FRAMES] [CASE]]`; CASE is a part of a case's name, as printed.
 //!
 //! Prints the adapter first, then for each case the median over the frames of each pass, and rays per second. On a software
 //! adapter, whose timestamps are those of the queue and not of the work, each pass is submitted and waited for by itself.
@@ -18,7 +18,7 @@ use std::time::Instant;
 const WARM_UP: u32 = 5;
 
 fn main() {
-    let frames = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(15);
+    let frames = std::env::args().skip(1).filter_map(|a| a.parse().ok()).next().unwrap_or(15);
     let gpu = Gpu::new().unwrap_or_else(|e| {
         eprintln!("{e}");
         std::process::exit(1);
@@ -27,13 +27,23 @@ fn main() {
         "{} ({}, {:?}), {frames} frames after {WARM_UP}",
         gpu.adapter.name, gpu.adapter.driver_info, gpu.adapter.backend
     );
+    let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
+    let runs = |case: &str| chosen.iter().all(|c| case.contains(c.as_str()));
     // The box fills a square image; the wide one is what a filter is usually quoted for.
-    trace(&gpu, "cornell", "static", [512, 512], frames);
-    trace(&gpu, "cornell", "all", [512, 512], frames);
-    trace(&gpu, "pillars", "static", [512, 512], frames);
-    filter(&gpu, "adaptive", Settings::adaptive(), frames);
-    filter(&gpu, "constant 0.1", Settings::adaptive().constant(0.1), frames);
-    filter(&gpu, "classic", Settings::classic(), frames);
+    for [scene, animation] in [["cornell", "static"], ["cornell", "all"], ["pillars", "static"]] {
+        if runs(&format!("trace {scene}, {animation}")) {
+            trace(&gpu, scene, animation, [512, 512], frames);
+        }
+    }
+    for (name, settings) in [
+        ("adaptive", Settings::adaptive()),
+        ("constant 0.1", Settings::adaptive().constant(0.1)),
+        ("classic", Settings::classic()),
+    ] {
+        if runs(&format!("filter {name}")) {
+            filter(&gpu, name, settings, frames);
+        }
+    }
 }
 
 /// Rays per second of the tracing passes, at three bounces with light samples.

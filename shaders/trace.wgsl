@@ -6,7 +6,12 @@
 
 #import asvgf::frame::{frame, direction, sample_point, inside, Camera}
 #import asvgf::random::{seed_of, uniform_float}
-#import asvgf::traverse::{Ray, closest_hit, occluded}
+#import asvgf::ray::Ray
+#ifdef FEW_TRIANGLES
+#import asvgf::few_triangles::{prepare_traversal, closest_hit, occluded}
+#else
+#import asvgf::traverse::{closest_hit, occluded}
+#endif
 #import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at, offset_origin}
 #import asvgf::material::{Surface, surface_at, demodulation, scattering, sample_direction}
 #import asvgf::light::{environment_radiance, environment_density, emitter_density}
@@ -149,6 +154,9 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+#ifdef FEW_TRIANGLES
+    prepare_traversal();
+#endif
     let pixel = vec2<i32>(id.xy);
     if !inside(pixel) {
         return;

@@ -7,7 +7,7 @@ use crate::gpu::kernel::Kernel;
 use crate::gpu::textures::{Textures, strata};
 use crate::gpu::timing::{FrameTimes, Timing};
 use crate::passes::{self, Pass};
-use crate::plan::{Feature, Grid, Plan, Slot, Step};
+use crate::plan::{Feature, Grid, Plan, Slot, Step, Traversal};
 #[cfg(feature = "path-tracer")]
 use crate::scene::GpuScene;
 use crate::settings::{Mode, Settings};
@@ -234,7 +234,7 @@ impl Denoiser {
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let camera = frame.camera.uniform(self.size)?;
         let plan = Plan::path_traced(&scene.traits(), &self.settings, format);
-        self.compile(device, &plan.steps, scene.stack())?;
+        self.compile(device, &plan.steps, scene.traversal())?;
         let lost = self.textures.fit(device, self.size, &plan);
         let version = scene.version();
         let last = self.last.as_ref();
@@ -260,7 +260,7 @@ impl Denoiser {
             let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
             let scene_resource = |name: &str| scene.resource(name);
             let resources =
-                Resources { scene: &scene_resource, stack: scene.stack(), uniform: &uniform, target, show: None };
+                Resources { scene: &scene_resource, traversal: scene.traversal(), uniform: &uniform, target, show: None };
             self.dispatch(device, encoder, step, &resources, timestamps)?;
             after(step.pass, encoder);
         }
@@ -292,13 +292,13 @@ impl Denoiser {
         };
         let step = passes::view::step(view, &last.plan, self.settings.mode, format);
         let result = step.and_then(|step| {
-            self.compile(device, std::slice::from_ref(&step), 0)?;
+            self.compile(device, std::slice::from_ref(&step), Traversal::default())?;
             let show = device.create_buffer_init(&BufferInitDescriptor {
                 label: Some("asvgf view"),
                 contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
                 usage: BufferUsages::UNIFORM,
             });
-            let resources = Resources { scene: &|_| None, stack: 0, uniform: &last.uniform, target, show: Some(&show) };
+            let resources = Resources { scene: &|_| None, traversal: Traversal::default(), uniform: &last.uniform, target, show: Some(&show) };
             self.dispatch(device, encoder, &step, &resources, None)
         });
         self.last = Some(last);
@@ -326,19 +326,19 @@ impl Denoiser {
         Ok(format)
     }
 
-    fn permutation(step: &Step, stack: u32) -> Permutation {
+    fn permutation(step: &Step, traversal: Traversal) -> Permutation {
         let traverses = ["visibility", "trace"].contains(&step.pass.name());
         Permutation {
             pass: step.pass,
             features: step.features,
-            stack: if traverses { stack } else { 4 },
+            traversal: if traverses { traversal } else { Traversal::default() },
             view: if step.pass == Pass::View { step.iteration } else { 0 },
         }
     }
 
-    fn compile(&mut self, device: &Device, steps: &[Step], stack: u32) -> Result<(), Error> {
+    fn compile(&mut self, device: &Device, steps: &[Step], traversal: Traversal) -> Result<(), Error> {
         for step in steps {
-            let permutation = Self::permutation(step, stack);
+            let permutation = Self::permutation(step, traversal);
             if !self.kernels.contains_key(&permutation) {
                 let kernel = Kernel::new(device, &mut self.shaders.0, permutation)?;
                 self.kernels.insert(permutation, kernel);
@@ -355,7 +355,7 @@ impl Denoiser {
         resources: &Resources<'a>,
         timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) -> Result<(), Error> {
-        let permutation = Self::permutation(step, resources.stack);
+        let permutation = Self::permutation(step, resources.traversal);
         let missing = |name: String| Error::Shader {
             shader: step.pass.name(),
             features: format!("{:?}", step.features),
@@ -405,8 +405,7 @@ impl Denoiser {
 /// What a dispatch uses that is not the denoiser's own.
 struct Resources<'a> {
     scene: &'a dyn Fn(&str) -> Option<BindingResource<'a>>,
-    /// Slots of the traversal's stack.
-    stack: u32,
+    traversal: Traversal,
     uniform: &'a Buffer,
     target: &'a TextureView,
     show: Option<&'a Buffer>,

@@ -30,6 +30,8 @@ pub struct Traits {
     pub environment: bool,
     /// Some material is shown unlit.
     pub unlit: bool,
+    /// So few triangles, on an adapter that is the CPU, that testing each is faster than a tree.
+    pub few_triangles: bool,
 }
 
 /// Something that is compiled into a shader or not. The names in WGSL are the same in capitals.
@@ -47,6 +49,8 @@ pub enum Feature {
     Specular,
     /// Opacity test during traversal.
     AlphaMask,
+    /// Every triangle is tested instead of a tree.
+    FewTriangles,
     /// Any light to sample.
     Lights,
     /// Emitting triangles.
@@ -96,7 +100,7 @@ pub enum Feature {
 }
 
 impl Feature {
-    const ALL: [Self; 28] = {
+    const ALL: [Self; 29] = {
         use Feature::*;
         [
             Instanced,
@@ -104,6 +108,7 @@ impl Feature {
             ShadingNormals,
             Specular,
             AlphaMask,
+            FewTriangles,
             Lights,
             Emitters,
             PunctualLights,
@@ -191,6 +196,28 @@ impl FromIterator<Feature> for Features {
 impl fmt::Debug for Features {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_set().entries(self.iter()).finish()
+    }
+}
+
+/// How rays find triangles: numbers that the shaders which follow rays are compiled with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Traversal {
+    /// Down the trees.
+    Tree {
+        /// Slots of the traversal's stack.
+        stack: u32,
+    },
+    /// By testing each, see [`Feature::FewTriangles`].
+    Every {
+        /// How many there are, a multiple of 8.
+        triangles: u32,
+    },
+}
+
+impl Default for Traversal {
+    fn default() -> Self {
+        Self::Tree { stack: 4 }
     }
 }
 
@@ -377,6 +404,7 @@ fn traced_features(traits: &Traits, settings: &Settings) -> Features {
         (ShadingNormals, traits.shading_normals),
         (Specular, traits.specular),
         (AlphaMask, traits.alpha_mask),
+        (FewTriangles, traits.few_triangles),
         (Lights, lights),
         (Emitters, traits.emitters),
         (PunctualLights, traits.punctual_lights),

@@ -1,29 +1,13 @@
 #define_import_path asvgf::traverse
 
 #import asvgf::scene::{scene, node_word, triangle_word, NO_TRIANGLE}
+#import asvgf::ray::{Ray, Hit, MISS}
 #ifdef INSTANCED
 #import asvgf::scene::{world_to_object, transform_point, transform_vector, instance_numbers, instance_grid}
 #endif
 #ifdef ALPHA_MASK
 #import asvgf::texture::is_hole
 #endif
-
-struct Ray {
-    origin: vec3<f32>,
-    direction: vec3<f32>,
-}
-
-struct Hit {
-    distance: f32,
-    // Row of the visibility lookup table (`NO_TRIANGLE` if nothing was hit), and whose it is.
-    triangle: u32,
-    instance: u32,
-    // Barycentric weights of the second and the third vertex.
-    barycentrics: vec2<f32>,
-}
-
-// A distance that means a miss.
-const MISS: f32 = 3.0e38;
 
 // Möller and Trumbore 1997. Returns distance, u, v; a distance of `MISS` where there is no hit in (0, limit).
 fn intersect(origin: vec3<f32>, direction: vec3<f32>, a: vec3<f32>, edge_b: vec3<f32>, edge_c: vec3<f32>, limit: f32) -> vec3<f32> {
@@ -169,6 +153,7 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
     }
     return hit;
 }
+
 fn closest_hit(ray: Ray) -> Hit {
     return traverse(ray, MISS, false);
 }

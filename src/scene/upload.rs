@@ -1,19 +1,20 @@
 //! The scene on the GPU, laid out as shaders/shared/scene.wgsl reads it.
 
 use super::bvh::{self, Quantization};
+use super::facets::{self, Facet};
 use super::folded::{self, Texel};
 use super::geometry::{self, Geometry};
 use super::lights::{self, AnalyticLight, GpuLight};
 use super::texels::{self, GpuTexture, Place};
 use super::{Alpha, Light, Material, Matrix, Pose, Scene, SceneError};
-use crate::plan::Traits;
+use crate::plan::{Traits, Traversal};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
-use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, Device, Queue, Texture, TextureView};
+use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, Device, DeviceType, Queue, Texture, TextureView};
 
 /// Lights that the Blinn–Phong gradient evaluates; the strongest are kept.
 const ANALYTIC_LIGHTS: usize = 64;
@@ -49,6 +50,8 @@ pub struct GpuScene {
     header: Header,
     buffers: Buffers,
     triangles: usize,
+    /// Corners of each row, where the scene has so few triangles that each is tested.
+    few: Option<Vec<[[f32; 3]; 3]>>,
 }
 
 #[derive(Debug)]
@@ -62,6 +65,8 @@ struct Buffers {
     lights: Buffer,
     analytic_lights: Buffer,
     analytic_lights_previous: Buffer,
+    facets: Buffer,
+    facet_owners: Buffer,
 }
 
 /// A tree placed in the world.
@@ -71,6 +76,7 @@ struct Instance {
     node: Option<usize>,
     root: u32,
     first_row: u32,
+    row_count: u32,
     /// First number in the visibility buffer.
     first_id: u32,
     first_light: u32,
@@ -192,6 +198,7 @@ impl GpuScene {
                     node,
                     root: built.root,
                     first_row: built.first_row,
+                    row_count: group.faces.len() as u32,
                     first_id: next_id,
                     first_light,
                     bounds: built.bounds,
@@ -242,6 +249,10 @@ impl GpuScene {
         traits.punctual_lights = !punctual.is_empty();
         traits.environment = environment_weight > 0.0;
         traits.emitters &= first_punctual > 0;
+        // Ids are numbered through all instances, so the next one is their triangles' number.
+        traits.few_triangles = device.adapter_info().device_type == DeviceType::Cpu
+            && next_id as usize <= facets::MOST
+            && !traits.alpha_mask;
         lights::assign_probabilities(&mut light_table, &powers);
         if let Some(light) = light_table.get(header.environment_light as usize) {
             header.environment_density = (f64::from(light.pmf) / environment_weight) as f32;
@@ -289,9 +300,12 @@ impl GpuScene {
                 materials: empty.clone(),
                 lights: empty.clone(),
                 analytic_lights: empty.clone(),
-                analytic_lights_previous: empty,
+                analytic_lights_previous: empty.clone(),
+                facets: empty.clone(),
+                facet_owners: empty,
             },
             triangles: geometry.rows.len(),
+            few: traits.few_triangles.then(|| geometry.rows.iter().map(|row| row.map(corner)).collect()),
         };
         let (top, depth) = this.placements(&pose);
         nodes[..top.len()].copy_from_slice(&top);
@@ -299,6 +313,7 @@ impl GpuScene {
         this.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&this.header), BufferUsages::UNIFORM);
         this.upload_materials(device);
         this.upload_lights(device);
+        this.upload_facets(device);
         this.buffers.analytic_lights_previous = this.buffers.analytic_lights.clone();
         // One slot for the bottom, one for the mark between the levels, one that is written before it is known to be kept.
         this.stack = (geometry.depth + depth + 3).next_multiple_of(4);
@@ -336,6 +351,7 @@ impl GpuScene {
             let (top, _) = self.placements(&before);
             self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
             folded::replace(device, encoder, &self.buffers.nodes.0, &top);
+            self.upload_facets(device);
         }
         self.moved = moves;
         self.buffers.analytic_lights_previous = self.buffers.analytic_lights.clone();
@@ -372,9 +388,12 @@ impl GpuScene {
         [self.id, self.revision]
     }
 
-    /// Slots that a traversal's stack needs.
-    pub(crate) fn stack(&self) -> u32 {
-        self.stack
+    /// How rays find their triangles.
+    pub(crate) fn traversal(&self) -> Traversal {
+        match self.few {
+            Some(_) => Traversal::Every { triangles: (self.buffers.facets.size() / size_of::<Facet>() as u64) as u32 },
+            None => Traversal::Tree { stack: self.stack },
+        }
     }
 
     /// What stands behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
@@ -388,6 +407,8 @@ impl GpuScene {
             "texels" => &b.texels,
             "materials" => &b.materials,
             "lights" => &b.lights,
+            "facets" => &b.facets,
+            "facet_owners" => &b.facet_owners,
             "analytic_lights" => &b.analytic_lights,
             "analytic_lights_previous" => &b.analytic_lights_previous,
             _ => return None,
@@ -402,25 +423,42 @@ impl GpuScene {
             self.header.set_grid(self.instances[0].grid);
             return (Vec::new(), 0);
         }
-        let place =
-            |pose: &Pose, i: &Instance| i.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
-        let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(place(&self.pose, i), i.bounds)).collect();
+        let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(i.placement(&self.pose), i.bounds)).collect();
         let top = bvh::over_instances(&boxes);
         self.header.set_grid(top.grid);
         let mut texels = folded::texels(&top.nodes).to_vec();
         // As many nodes as any tree over these instances can have, so that the records stay where they are.
         texels.resize(self.header.instances as usize, Texel::default());
         for instance in &self.instances {
-            let now = place(&self.pose, instance);
+            let now = instance.placement(&self.pose);
             let mirrored = u32::from(now.determinant() < 0.0);
             texels.extend(rows(now));
             texels.extend(rows(inverse(now)));
-            texels.extend(rows(place(before, instance)));
+            texels.extend(rows(instance.placement(before)));
             texels.push(padded(instance.grid.base));
             texels.push(padded(instance.grid.step));
             texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
         }
         (texels, top.depth)
+    }
+
+    /// The triangles of all instances in world space, where each of them is tested.
+    fn upload_facets(&mut self, device: &Device) {
+        let Some(corners) = &self.few else { return };
+        let (mut all, mut owners) = (Vec::new(), Vec::new());
+        for (number, instance) in self.instances.iter().enumerate() {
+            let placement = instance.placement(&self.pose);
+            for row in instance.first_row..instance.first_row + instance.row_count {
+                all.push(Facet::new(corners[row as usize], placement));
+                owners.push([row, number as u32, 0, 0]);
+            }
+        }
+        let count = facets::padded(all.len());
+        all.resize(count, Facet::default());
+        owners.resize(count, [0; 4]);
+        let uniform = |label, contents| buffer(device, label, contents, BufferUsages::UNIFORM);
+        self.buffers.facets = uniform("facets", bytemuck::cast_slice(&all));
+        self.buffers.facet_owners = uniform("owners of facets", bytemuck::cast_slice(&owners));
     }
 
     fn upload_materials(&mut self, device: &Device) {
@@ -464,6 +502,13 @@ impl GpuScene {
         analytic.iter_mut().for_each(|light| light.count = count);
         self.buffers.lights = storage(device, "lights", &self.light_table, size_of::<GpuLight>());
         self.buffers.analytic_lights = storage(device, "analytic lights", &analytic, size_of::<AnalyticLight>());
+    }
+}
+
+impl Instance {
+    /// Where it stands in a pose.
+    fn placement(&self, pose: &Pose) -> Mat4 {
+        self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
     }
 }
 
@@ -544,6 +589,11 @@ fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -
     } else {
         buffer(device, label, &vec![0; least], BufferUsages::STORAGE)
     }
+}
+
+/// The vertex in a texel of the lookup table.
+fn corner(texel: Texel) -> [f32; 3] {
+    [texel[0], texel[1], texel[2]].map(f32::from_bits)
 }
 
 fn padded(v: [f32; 3]) -> Texel {

@@ -131,8 +131,10 @@ fn queries(triangles: &[[DVec3; 3]]) -> Vec<Query> {
 fn ask_gpu(scene: &GpuScene, queries: &[Query]) -> Vec<Answer> {
     let gpu = gpu();
     let device = &gpu.device;
-    let instanced = if scene.traits().instanced { Features::of(&[Feature::Instanced]) } else { Features::default() };
-    let permutation = Permutation { pass: Pass::Visibility, features: instanced, stack: scene.stack(), view: 0 };
+    let traits = scene.traits();
+    let features = [(Feature::Instanced, traits.instanced), (Feature::FewTriangles, traits.few_triangles)];
+    let features: Features = features.into_iter().filter(|(_, on)| *on).map(|(f, _)| f).collect();
+    let permutation = Permutation { pass: Pass::Visibility, features, traversal: scene.traversal(), view: 0 };
     let module = Shaders::new().and_then(|mut s| s.compose_source(include_str!("traversal.wgsl"), permutation));
     let module = module.unwrap_or_else(|e| panic!("{e}"));
     let used = used_bindings(&module).unwrap();

@@ -1,0 +1,144 @@
+//! What a frame costs: `cargo bench --bench frame [-- [FRAMES] [CASE]]`; CASE is a part of a case's name, as printed.
+//!
+//! Prints the adapter first, then for each case the median over the frames of each pass, and rays per second. On a software
+//! adapter, whose timestamps are those of the queue and not of the work, each pass is submitted and waited for by itself.
+//! Run it on an otherwise idle machine; compare only figures of one run.
+
+#[path = "../examples/support/gpu.rs"]
+mod gpu;
+
+use asvgf::scene::{GpuScene, builtin};
+use asvgf::wgpu::{DeviceType, TextureFormat};
+use asvgf::{Camera, Denoiser, DenoiserDescriptor, Frame, Settings, View, ViewOptions};
+use gpu::Gpu;
+use std::collections::BTreeMap;
+use std::time::Duration;
+#[derive(Clone, Copy)]
+struct Instant(u128);
+#[repr(C)]
+struct Ts(i64, i64);
+unsafe extern "C" { fn clock_gettime(c: i32, t: *mut Ts) -> i32; }
+impl Instant { fn now() -> Self { let mut t = Ts(0, 0); let c = if std::env::var_os("WALL").is_some() { 1 } else { 2 }; unsafe { clock_gettime(c, &mut t); } let n = t.0 as u128 * 1_000_000_000 + t.1 as u128; Self(if c == 2 { n / 2 } else { n }) }
+ fn elapsed(self) -> Duration { Duration::from_nanos((Self::now().0 - self.0) as u64) } }
+
+/// Frames before the first that counts: pipelines compile in the first, histories are short in the next.
+const WARM_UP: u32 = 5;
+
+fn main() {
+    let frames = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(15);
+    let gpu = Gpu::new().unwrap_or_else(|e| {
+        eprintln!("{e}");
+        std::process::exit(1);
+    });
+    println!(
+        "{} ({}, {:?}), {frames} frames after {WARM_UP}",
+        gpu.adapter.name, gpu.adapter.driver_info, gpu.adapter.backend
+    );
+    let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
+    let runs = |case: &str| chosen.iter().all(|c| case.contains(c.as_str()));
+    // The box fills a square image; the wide one is what a filter is usually quoted for.
+    for [scene, animation] in [["cornell", "static"], ["cornell", "all"], ["pillars", "static"]] {
+        if runs(&format!("trace {scene}, {animation}")) {
+            trace(&gpu, scene, animation, [512, 512], frames);
+        }
+    }
+    for (name, settings) in [
+        ("adaptive", Settings::adaptive()),
+        ("constant 0.1", Settings::adaptive().constant(0.1)),
+        ("classic", Settings::classic()),
+    ] {
+        if runs(&format!("filter {name}")) {
+            filter(&gpu, name, settings, frames);
+        }
+    }
+}
+
+/// Rays per second of the tracing passes, at three bounces with light samples.
+fn trace(gpu: &Gpu, scene: &str, animation: &str, size: [u32; 2], frames: u32) {
+    let mut settings = Settings::adaptive();
+    if let Ok(b) = std::env::var("BOUNCES") { settings.tracer.bounces = b.parse().unwrap(); }
+    match std::env::var("SAMPLING").as_deref() { Ok("s") => settings.tracer.sampling = asvgf::Sampling::Scattered, Ok("l") => settings.tracer.sampling = asvgf::Sampling::Lights, _ => {} }
+    let (times, rays) = measure(gpu, scene, animation, size, settings, frames);
+    let milliseconds = times["visibility"] + times["trace"];
+    println!("visibility {:.1} trace {:.1}", times["visibility"], times["trace"]);
+    println!(
+        "trace {scene}, {animation}, {}×{}: {:.2} M rays in {milliseconds:.1} ms = {:.1} M rays/s",
+        size[0],
+        size[1],
+        rays / 1e6,
+        rays / milliseconds / 1e3,
+    );
+}
+
+/// Milliseconds of everything but tracing.
+fn filter(gpu: &Gpu, name: &str, settings: Settings, frames: u32) {
+    let size = [1280, 720];
+    let (times, _) = measure(gpu, "cornell", "static", size, settings, frames);
+    let passes: Vec<_> = times.iter().filter(|(n, _)| !["visibility", "trace"].contains(n)).collect();
+    let total: f64 = passes.iter().map(|(_, ms)| *ms).sum();
+    println!("filter {name}, {}×{}: {total:.1} ms", size[0], size[1]);
+    for (pass, ms) in passes {
+        println!("    {pass:24}{ms:8.1} ms");
+    }
+}
+
+/// Median milliseconds of each pass, iterations added up, and the rays of the last frame.
+fn measure(
+    gpu: &Gpu,
+    name: &str,
+    animation: &str,
+    size: [u32; 2],
+    settings: Settings,
+    frames: u32,
+) -> (BTreeMap<&'static str, f64>, f64) {
+    let scene = builtin::scene(name, animation).expect("a built-in scene");
+    let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).expect("it fits");
+    let timing = gpu.adapter.device_type != DeviceType::Cpu
+        && gpu.device.features().contains(asvgf::wgpu::Features::TIMESTAMP_QUERY);
+    let descriptor = DenoiserDescriptor { size, settings, timing };
+    let mut denoiser = Denoiser::new(&gpu.device, &gpu.queue, &descriptor).expect("a denoiser");
+    let target = gpu.target(size, TextureFormat::Rgba32Float);
+    let mut samples = BTreeMap::<&'static str, Vec<f64>>::new();
+    for index in 0..WARM_UP + frames {
+        let pose = scene.pose(Some(0), index as f32 / 30.0);
+        let view = scene.camera_node().and_then(|n| scene.camera_view(&pose, n)).expect("a camera");
+        let camera = Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        uploaded.update(&gpu.device, &mut encoder, &pose).expect("a pose of the scene");
+        let frame = Frame { scene: &uploaded, camera, index, target: &target };
+        let mut times = BTreeMap::<&'static str, f64>::new();
+        if timing {
+            denoiser.render(&gpu.device, &mut encoder, &frame).expect("a frame");
+            gpu.queue.submit([encoder.finish()]);
+            gpu.wait();
+            for (pass, ms) in denoiser.take_times().map(|t| t.passes).unwrap_or_default() {
+                *times.entry(pass).or_default() += ms;
+            }
+        } else {
+            let mut start = Instant::now();
+            let stepped = denoiser.render_stepwise(&gpu.device, &mut encoder, &frame, |pass, encoder| {
+                let recorded = std::mem::replace(encoder, gpu.device.create_command_encoder(&Default::default()));
+                gpu.queue.submit([recorded.finish()]);
+                gpu.wait();
+                *times.entry(pass.name()).or_default() += start.elapsed().as_secs_f64() * 1e3;
+                start = Instant::now();
+            });
+            stepped.expect("a frame");
+        }
+        if index >= WARM_UP {
+            for (pass, ms) in times {
+                samples.entry(pass).or_default().push(ms);
+            }
+        }
+    }
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    denoiser.show(&gpu.device, &mut encoder, View::Rays, ViewOptions::default(), &target).expect("a view");
+    gpu.queue.submit([encoder.finish()]);
+    let rays = gpu.read_colors(&target).iter().map(|c| f64::from(c[0])).sum();
+    (samples.into_iter().map(|(pass, times)| (pass, median(times))).collect(), rays)
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
