@@ -17,9 +17,23 @@ use std::time::Duration;
 struct Instant(u128);
 #[repr(C)]
 struct Ts(i64, i64);
-unsafe extern "C" { fn clock_gettime(c: i32, t: *mut Ts) -> i32; }
-impl Instant { fn now() -> Self { let mut t = Ts(0, 0); let c = if std::env::var_os("WALL").is_some() { 1 } else { 2 }; unsafe { clock_gettime(c, &mut t); } let n = t.0 as u128 * 1_000_000_000 + t.1 as u128; Self(if c == 2 { n / 2 } else { n }) }
- fn elapsed(self) -> Duration { Duration::from_nanos((Self::now().0 - self.0) as u64) } }
+unsafe extern "C" {
+    fn clock_gettime(c: i32, t: *mut Ts) -> i32;
+}
+impl Instant {
+    fn now() -> Self {
+        let mut t = Ts(0, 0);
+        let c = if std::env::var_os("WALL").is_some() { 1 } else { 2 };
+        unsafe {
+            clock_gettime(c, &mut t);
+        }
+        let n = t.0 as u128 * 1_000_000_000 + t.1 as u128;
+        Self(if c == 2 { n / 2 } else { n })
+    }
+    fn elapsed(self) -> Duration {
+        Duration::from_nanos((Self::now().0 - self.0) as u64)
+    }
+}
 
 /// Frames before the first that counts: pipelines compile in the first, histories are short in the next.
 const WARM_UP: u32 = 5;
@@ -34,7 +48,8 @@ fn main() {
         "{} ({}, {:?}), {frames} frames after {WARM_UP}",
         gpu.adapter.name, gpu.adapter.driver_info, gpu.adapter.backend
     );
-    let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
+    let chosen: Vec<String> =
+        std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
     let runs = |case: &str| chosen.iter().all(|c| case.contains(c.as_str()));
     // The box fills a square image; the wide one is what a filter is usually quoted for.
     for [scene, animation] in [["cornell", "static"], ["cornell", "all"], ["pillars", "static"]] {
@@ -56,8 +71,14 @@ fn main() {
 /// Rays per second of the tracing passes, at three bounces with light samples.
 fn trace(gpu: &Gpu, scene: &str, animation: &str, size: [u32; 2], frames: u32) {
     let mut settings = Settings::adaptive();
-    if let Ok(b) = std::env::var("BOUNCES") { settings.tracer.bounces = b.parse().unwrap(); }
-    match std::env::var("SAMPLING").as_deref() { Ok("s") => settings.tracer.sampling = asvgf::Sampling::Scattered, Ok("l") => settings.tracer.sampling = asvgf::Sampling::Lights, _ => {} }
+    if let Ok(b) = std::env::var("BOUNCES") {
+        settings.tracer.bounces = b.parse().unwrap();
+    }
+    match std::env::var("SAMPLING").as_deref() {
+        Ok("s") => settings.tracer.sampling = asvgf::Sampling::Scattered,
+        Ok("l") => settings.tracer.sampling = asvgf::Sampling::Lights,
+        _ => {}
+    }
     let (times, rays) = measure(gpu, scene, animation, size, settings, frames);
     let milliseconds = times["visibility"] + times["trace"];
     println!("visibility {:.1} trace {:.1}", times["visibility"], times["trace"]);

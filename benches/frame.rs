@@ -27,7 +27,8 @@ fn main() {
         "{} ({}, {:?}), {frames} frames after {WARM_UP}",
         gpu.adapter.name, gpu.adapter.driver_info, gpu.adapter.backend
     );
-    let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
+    let chosen: Vec<String> =
+        std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
     let runs = |case: &str| chosen.iter().all(|c| case.contains(c.as_str()));
     // The box fills a square image; the wide one is what a filter is usually quoted for.
     for [scene, animation] in [["cornell", "static"], ["cornell", "all"], ["pillars", "static"]] {

@@ -259,8 +259,13 @@ impl Denoiser {
         for step in &plan.steps {
             let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
             let scene_resource = |name: &str| scene.resource(name);
-            let resources =
-                Resources { scene: &scene_resource, traversal: scene.traversal(), uniform: &uniform, target, show: None };
+            let resources = Resources {
+                scene: &scene_resource,
+                traversal: scene.traversal(),
+                uniform: &uniform,
+                target,
+                show: None,
+            };
             self.dispatch(device, encoder, step, &resources, timestamps)?;
             after(step.pass, encoder);
         }
@@ -298,7 +303,13 @@ impl Denoiser {
                 contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
                 usage: BufferUsages::UNIFORM,
             });
-            let resources = Resources { scene: &|_| None, traversal: Traversal::default(), uniform: &last.uniform, target, show: Some(&show) };
+            let resources = Resources {
+                scene: &|_| None,
+                traversal: Traversal::default(),
+                uniform: &last.uniform,
+                target,
+                show: Some(&show),
+            };
             self.dispatch(device, encoder, &step, &resources, None)
         });
         self.last = Some(last);

@@ -33,8 +33,9 @@ struct Scene {
 @group(1) @binding(2) var triangles: texture_2d<u32>;
 // Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
-@group(1) @binding(5) var<storage, read> materials: array<Material>;
-@group(1) @binding(6) var<storage, read> lights: array<Light>;
+// Materials and lights, the structs below texel by texel.
+@group(1) @binding(5) var materials: texture_2d<u32>;
+@group(1) @binding(6) var lights: texture_2d<u32>;
 // RGBA8 texels of all images; the environment's radiances and alias table as f32 bits.
 @group(1) @binding(7) var<storage, read> texels: array<u32>;
 
@@ -101,6 +102,49 @@ fn node_word(i: u32) -> vec4<u32> {
 
 fn triangle_word(i: u32) -> vec4<u32> {
     return textureLoad(triangles, vec2(i & 4095u, i >> 12u), 0);
+}
+
+fn material_word(i: u32) -> vec4<u32> {
+    return textureLoad(materials, vec2(i & 4095u, i >> 12u), 0);
+}
+
+fn light_word(i: u32) -> vec4<u32> {
+    return textureLoad(lights, vec2(i & 4095u, i >> 12u), 0);
+}
+
+fn texture_use(first: u32) -> TextureUse {
+    let image = material_word(first);
+    let row_u = bitcast<vec4<f32>>(material_word(first + 1u));
+    return TextureUse(image.x, image.y, image.z, image.w, row_u, bitcast<vec4<f32>>(material_word(first + 2u)));
+}
+
+// What of it is not used is not fetched.
+fn load_material(i: u32) -> Material {
+    let first = i * 12u;
+    let emission = material_word(first + 1u);
+    let numbers = bitcast<vec4<f32>>(material_word(first + 2u));
+    return Material(
+        bitcast<vec4<f32>>(material_word(first)),
+        bitcast<vec3<f32>>(emission.xyz), emission.w,
+        numbers.x, numbers.y, numbers.z, numbers.w,
+        texture_use(first + 3u), texture_use(first + 6u), texture_use(first + 9u),
+    );
+}
+
+fn load_light(i: u32) -> Light {
+    let first = i * 5u;
+    let choice = light_word(first);
+    let place = light_word(first + 1u);
+    let axis = light_word(first + 2u);
+    let strength = bitcast<vec4<f32>>(light_word(first + 3u));
+    let spot = bitcast<vec2<f32>>(light_word(first + 4u).xy);
+    return Light(
+        choice.x, choice.y, bitcast<f32>(choice.z), bitcast<f32>(choice.w),
+        bitcast<vec3<f32>>(place.xyz), place.w,
+        bitcast<vec3<f32>>(axis.xyz), axis.w,
+        strength.xyz, strength.w,
+        spot.x, spot.y, 0u, 0u,
+    );
 }
 
 // An affine map as three rows.

@@ -61,8 +61,8 @@ struct Buffers {
     triangles: (Texture, TextureView),
     attributes: Buffer,
     texels: Buffer,
-    materials: Buffer,
-    lights: Buffer,
+    materials: (Texture, TextureView),
+    lights: (Texture, TextureView),
     analytic_lights: Buffer,
     analytic_lights_previous: Buffer,
     facets: Buffer,
@@ -267,7 +267,7 @@ impl GpuScene {
         check_size(device, "images", size_of_val(words.as_slice()))?;
         check_size(device, "normals and texture coordinates", size_of_val(geometry.attributes.as_slice()))?;
         let empty = storage(device, "placeholder", &[0_u32; 4], 16);
-        let folded = |label, texels| {
+        let folded = |label: &str, texels: &[Texel]| {
             let texture = folded::texture(device, queue, label, texels);
             let view = texture.create_view(&Default::default());
             (texture, view)
@@ -297,8 +297,8 @@ impl GpuScene {
                 triangles: folded("visibility lookup table", rows),
                 attributes: storage(device, "normals and texture coordinates", &geometry.attributes, 4),
                 texels: storage(device, "texels", &words, 4),
-                materials: empty.clone(),
-                lights: empty.clone(),
+                materials: folded("materials", &[]),
+                lights: folded("lights", &[]),
                 analytic_lights: empty.clone(),
                 analytic_lights_previous: empty.clone(),
                 facets: empty.clone(),
@@ -311,8 +311,9 @@ impl GpuScene {
         nodes[..top.len()].copy_from_slice(&top);
         this.buffers.nodes = folded("tree nodes", &nodes);
         this.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&this.header), BufferUsages::UNIFORM);
-        this.upload_materials(device);
-        this.upload_lights(device);
+        this.buffers.materials = folded("materials", folded::texels(&this.materials()));
+        this.place_lights(device);
+        this.buffers.lights = folded("lights", folded::texels(&this.light_table));
         this.upload_facets(device);
         this.buffers.analytic_lights_previous = this.buffers.analytic_lights.clone();
         // One slot for the bottom, one for the mark between the levels, one that is written before it is known to be kept.
@@ -357,9 +358,10 @@ impl GpuScene {
         self.buffers.analytic_lights_previous = self.buffers.analytic_lights.clone();
         if changed {
             self.revision += 1;
-            self.upload_lights(device);
+            self.place_lights(device);
+            folded::replace(device, encoder, &self.buffers.lights.0, folded::texels(&self.light_table));
             if before.emission != pose.emission {
-                self.upload_materials(device);
+                folded::replace(device, encoder, &self.buffers.materials.0, folded::texels(&self.materials()));
             }
         }
         Ok(())
@@ -379,8 +381,9 @@ impl GpuScene {
     pub fn memory(&self) -> u64 {
         let b = &self.buffers;
         let texels = |t: &Texture| u64::from(t.width()) * u64::from(t.height()) * size_of::<Texel>() as u64;
-        let buffers = [&b.attributes, &b.texels, &b.materials, &b.lights];
-        texels(&b.nodes.0) + texels(&b.triangles.0) + buffers.iter().map(|b| b.size()).sum::<u64>()
+        let textures = [&b.nodes.0, &b.triangles.0, &b.materials.0, &b.lights.0];
+        let buffers = [&b.attributes, &b.texels, &b.facets, &b.facet_owners];
+        textures.map(texels).iter().sum::<u64>() + buffers.iter().map(|b| b.size()).sum::<u64>()
     }
 
     /// Differs between any two scenes of a process, and after any change of the pose.
@@ -396,17 +399,24 @@ impl GpuScene {
         }
     }
 
+    /// Makes rays go down the trees whatever there is to test.
+    #[cfg(test)]
+    pub(crate) fn use_trees(&mut self) {
+        self.few = None;
+        self.traits.few_triangles = false;
+    }
+
     /// What stands behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
     pub(crate) fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
         let b = &self.buffers;
         let buffer = match binding {
             "nodes" => return Some(BindingResource::TextureView(&b.nodes.1)),
             "triangles" => return Some(BindingResource::TextureView(&b.triangles.1)),
+            "materials" => return Some(BindingResource::TextureView(&b.materials.1)),
+            "lights" => return Some(BindingResource::TextureView(&b.lights.1)),
             "scene" => &b.scene,
             "attributes" => &b.attributes,
             "texels" => &b.texels,
-            "materials" => &b.materials,
-            "lights" => &b.lights,
             "facets" => &b.facets,
             "facet_owners" => &b.facet_owners,
             "analytic_lights" => &b.analytic_lights,
@@ -461,10 +471,10 @@ impl GpuScene {
         self.buffers.facet_owners = uniform("owners of facets", bytemuck::cast_slice(&owners));
     }
 
-    fn upload_materials(&mut self, device: &Device) {
+    /// The materials as bright as they are in this pose.
+    fn materials(&self) -> Vec<GpuMaterial> {
         let texture = |t| texels::texture_use(t, &self.images);
-        let materials: Vec<GpuMaterial> = self
-            .materials
+        self.materials
             .iter()
             .zip(&self.pose.emission)
             .map(|(m, factor)| GpuMaterial {
@@ -482,11 +492,11 @@ impl GpuScene {
                 metallic_roughness_texture: texture(m.metallic_roughness_texture),
                 emissive_texture: texture(m.emissive_texture),
             })
-            .collect();
-        self.buffers.materials = storage(device, "materials", &materials, size_of::<GpuMaterial>());
+            .collect()
     }
 
-    fn upload_lights(&mut self, device: &Device) {
+    /// Puts the lights where they are in this pose.
+    fn place_lights(&mut self, device: &Device) {
         let mut analytic: Vec<AnalyticLight> =
             self.emitters.iter().map(|e| e.analytic(&self.materials, &self.pose)).collect();
         for (punctual, entry) in self.punctual.iter().zip(&mut self.light_table[self.first_punctual..]) {
@@ -500,7 +510,6 @@ impl GpuScene {
         let count = analytic.len() as u32;
         analytic.resize(analytic.len().max(1), AnalyticLight::default());
         analytic.iter_mut().for_each(|light| light.count = count);
-        self.buffers.lights = storage(device, "lights", &self.light_table, size_of::<GpuLight>());
         self.buffers.analytic_lights = storage(device, "analytic lights", &analytic, size_of::<AnalyticLight>());
     }
 }

@@ -54,7 +54,8 @@ impl Bench {
         }
         let [frame, stride] =
             [bytemuck::bytes_of(&self.uniform()), &(1_i32 << step.iteration).to_le_bytes()].map(uniform);
-        let permutation = Permutation { pass: step.pass, features: step.features, traversal: Default::default(), view: 0 };
+        let permutation =
+            Permutation { pass: step.pass, features: step.features, traversal: Default::default(), view: 0 };
         let kernel = kernel(permutation);
         let views: BTreeMap<&str, _> = textures.iter().map(|(n, t)| (*n, t.create_view(&Default::default()))).collect();
         let resource = |name: &str| match name {
