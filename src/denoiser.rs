@@ -15,8 +15,8 @@ use crate::{Error, View, ViewOptions};
 use std::collections::HashMap;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
-    BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, Features,
-    Limits, Queue, TextureFormat, TextureUsages, TextureView,
+    BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, DeviceType,
+    Features, Limits, Queue, TextureFormat, TextureUsages, TextureView,
 };
 
 /// Spacing of the strides of the à-trous iterations in their buffer: the default `min_uniform_buffer_offset_alignment`.
@@ -233,7 +233,10 @@ impl Denoiser {
         let &Frame { scene, index, target, .. } = frame;
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let camera = frame.camera.uniform(self.size)?;
-        let plan = Plan::path_traced(&scene.traits(), &self.settings, format);
+        let mut plan = Plan::path_traced(&scene.traits(), &self.settings, format);
+        if device.adapter_info().device_type == DeviceType::Cpu {
+            plan = plan.on_cpu();
+        }
         self.compile(device, &plan.steps, scene.traversal())?;
         let lost = self.textures.fit(device, self.size, &plan);
         let version = scene.version();

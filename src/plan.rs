@@ -93,6 +93,8 @@ pub enum Feature {
     Unfiltered,
     /// The target shows the mean over frames.
     Accumulate,
+    /// What is read at many taps is bound as storage: on an adapter that is the CPU, half the cost of a texture fetch.
+    StorageReads,
     /// The target is rgba16float instead of rgba32float.
     TargetF16,
     /// The target is rgba8unorm and shows a tone-mapped picture.
@@ -100,7 +102,7 @@ pub enum Feature {
 }
 
 impl Feature {
-    const ALL: [Self; 29] = {
+    const ALL: [Self; 30] = {
         use Feature::*;
         [
             Instanced,
@@ -130,6 +132,7 @@ impl Feature {
             LocalLinearFit,
             Unfiltered,
             Accumulate,
+            StorageReads,
             TargetF16,
             TargetPicture,
         ]
@@ -378,6 +381,15 @@ impl Plan {
         }
         self.steps.extend((0..filter.iterations).map(|i| passes::atrous::step(features, i)));
         self.color = Some(Image::Color((filter.iterations % 2) as u8));
+    }
+
+    /// The same plan for an adapter that is the CPU.
+    pub(crate) fn on_cpu(mut self) -> Self {
+        for step in self.steps.iter_mut().filter(|s| matches!(s.pass, Pass::Temporal | Pass::Atrous)) {
+            step.features = step.features.with(Feature::StorageReads);
+        }
+        self.features = self.features.with(Feature::StorageReads);
+        self
     }
 
     /// The images that the steps use, each once, and whether the previous frame's is used too.

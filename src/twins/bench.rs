@@ -5,6 +5,7 @@ use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::textures::strata;
+use crate::passes::Pass;
 use crate::plan::{Feature, Grid, Slot, Step};
 use crate::{Camera, Settings};
 use std::collections::BTreeMap;
@@ -43,8 +44,18 @@ impl Bench {
         }
     }
 
-    /// Runs a step on the images of its bindings; what is not given is zero. Returns the images that it wrote.
+    /// Runs a step on the images of its bindings; what is not given is zero. Returns the images that it wrote, which are the
+    /// same whether it reads textures or storage.
     pub fn run(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
+        let outputs = self.run_once(step, inputs);
+        if matches!(step.pass, Pass::Temporal | Pass::Atrous) {
+            let other = Step { features: step.features.with(Feature::StorageReads), ..step.clone() };
+            assert!(outputs == self.run_once(&other, inputs), "{:?} with storage reads differs", step.pass);
+        }
+        outputs
+    }
+
+    fn run_once(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
         let gpu = gpu();
         let textures: BTreeMap<&str, Texture> =
             step.bindings.iter().map(|&(name, slot)| (name, self.texture(step, slot))).collect();

@@ -98,7 +98,9 @@ fn plans() -> Vec<(Plan, Mode)> {
     for (instanced, filter) in product(&[false, true], &filters()) {
         let settings = Settings { filter, ..Settings::adaptive() };
         let traits = Traits { instanced, ..Default::default() };
-        plans.push((Plan::path_traced(&traits, &settings, TextureFormat::Rgba32Float), Mode::Denoise));
+        let plan = Plan::path_traced(&traits, &settings, TextureFormat::Rgba32Float);
+        plans.push((plan.clone().on_cpu(), Mode::Denoise));
+        plans.push((plan, Mode::Denoise));
     }
     plans
 }
