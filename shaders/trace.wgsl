@@ -18,7 +18,7 @@
 #ifdef LIGHTS
 #import asvgf::light::sample_light
 #endif
-#import asvgf::scene::{NO_TRIANGLE, triangle_word, instance_numbers, scene}
+#import asvgf::scene::{NO_TRIANGLE, geometry_word, instance_numbers, scene}
 #import asvgf::color::{luminance, sanitize}
 #import asvgf::packing::pack_rgb
 #ifdef RESHADE
@@ -124,7 +124,7 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
         s = surface_at(v, t, hit.barycentrics, next);
 #ifdef EMITTERS
 #ifndef LIGHT_SAMPLES_ONLY
-        let emitter = triangle_word(hit.triangle * 3u + 1u).w;
+        let emitter = geometry_word(hit.triangle * 3u + 1u).w;
         if emitter > 0u {
 #ifdef SCATTERED_RAYS_ONLY
             let weight = 1.0;

@@ -385,8 +385,19 @@ impl Plan {
 
     /// The same plan for an adapter that is the CPU.
     pub(crate) fn on_cpu(mut self) -> Self {
-        for step in self.steps.iter_mut().filter(|s| matches!(s.pass, Pass::Temporal | Pass::Atrous)) {
-            step.features = step.features.with(Feature::StorageReads);
+        for step in &mut self.steps {
+            let reads = match step.pass {
+                Pass::Temporal | Pass::Atrous => true,
+                #[cfg(feature = "path-tracer")]
+                Pass::Trace => true,
+                // With instances it writes as many storage textures as there may be.
+                #[cfg(feature = "path-tracer")]
+                Pass::Visibility => !step.features.has(Feature::Instanced),
+                _ => false,
+            };
+            if reads {
+                step.features = step.features.with(Feature::StorageReads);
+            }
         }
         self.features = self.features.with(Feature::StorageReads);
         self

@@ -1,6 +1,6 @@
 #define_import_path asvgf::material
 
-#import asvgf::scene::{load_material, triangle_word, TWO_SIDED_EMITTER, UNLIT}
+#import asvgf::scene::{load_material, geometry_word, TWO_SIDED_EMITTER, UNLIT}
 #import asvgf::surface::{Visible, Triangle, at, geometric_normal, shading_normal, is_front}
 #import asvgf::color::luminance
 #import asvgf::packing::round_to_f16
@@ -28,7 +28,7 @@ struct Surface {
 }
 
 fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f32>) -> Surface {
-    let m = load_material(triangle_word(v.row * 3u).w);
+    let m = load_material(geometry_word(v.row * 3u).w);
     var base = m.base_color.xyz;
     var emission = m.emissive;
     var metallic = m.metallic;

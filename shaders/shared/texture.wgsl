@@ -1,6 +1,6 @@
 #define_import_path asvgf::texture
 
-#import asvgf::scene::{scene, texels, attributes, load_material, triangle_word, TextureUse}
+#import asvgf::scene::{scene, texels, attributes, load_material, geometry_word, TextureUse}
 
 // Images lie in one storage buffer, as no GPU is sure to have arrays of differently sized textures.
 
@@ -61,7 +61,7 @@ fn exists(image: TextureUse) -> bool {
 
 // Whether an alpha mask cuts this point of a triangle away.
 fn is_hole(row: u32, barycentrics: vec2<f32>) -> bool {
-    let material = load_material(triangle_word(row * 3u).w);
+    let material = load_material(geometry_word(row * 3u).w);
     if material.cutoff <= 0.0 {
         return false;
     }

@@ -22,7 +22,8 @@ const ANALYTIC_LIGHTS: usize = 64;
 /// Slots of the traversal's stack: no tree that obvhs builds over real geometry comes near.
 const LARGEST_STACK: u32 = 64;
 
-/// Texels of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
+/// Texels of a row of the lookup table, of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
+const ROW_TEXELS: usize = 3;
 const NODE_TEXELS: usize = 2;
 const RECORD_TEXELS: usize = 12;
 
@@ -57,8 +58,7 @@ pub struct GpuScene {
 #[derive(Debug)]
 struct Buffers {
     scene: Buffer,
-    nodes: (Texture, TextureView),
-    triangles: (Texture, TextureView),
+    geometry: (Texture, TextureView),
     attributes: Buffer,
     texels: Buffer,
     materials: (Texture, TextureView),
@@ -120,9 +120,9 @@ struct Header {
     uv1: u32,
     environment_density: f32,
     grid_base: [f32; 3],
-    pad: u32,
+    root: u32,
     grid_step: [f32; 3],
-    pad_too: u32,
+    pad: u32,
 }
 
 impl Header {
@@ -159,9 +159,15 @@ impl GpuScene {
         let groups = geometry::groups(scene, &pose.world);
         let instanced = groups.len() > 1 || !groups[0].nodes.is_empty();
         let instance_count: usize = groups.iter().map(|g| g.nodes.len().max(1)).sum();
-        // The top level and the records come first, in rows of their own, as they are replaced when something moves.
-        let top_texels = if instanced { top_level_texels(instance_count) } else { 0 };
-        let mut geometry = Geometry::new(scene, (top_texels / NODE_TEXELS) as u32);
+        // The lookup table comes first, then the top level and the records, in rows of their own as they are replaced when
+        // something moves, then the trees.
+        let table_texels = groups.iter().map(|g| g.faces.len() * ROW_TEXELS).sum::<usize>();
+        let (top, top_texels) = if instanced {
+            (table_texels.next_multiple_of(folded::WIDTH), top_level_texels(instance_count))
+        } else {
+            (table_texels.next_multiple_of(NODE_TEXELS), 0)
+        };
+        let mut geometry = Geometry::new(scene, ((top + top_texels) / NODE_TEXELS) as u32);
         let mut traits = geometry::traits(scene, geometry.layout);
         let mut instances = Vec::new();
         let mut light_table = Vec::new();
@@ -223,7 +229,8 @@ impl GpuScene {
         let images = texels::add_images(&scene.images, &mut words);
         let layout = geometry.layout;
         let mut header = Header {
-            instances: (top_level_nodes(instance_count) * NODE_TEXELS) as u32,
+            instances: (top + top_level_nodes(instance_count) * NODE_TEXELS) as u32,
+            root: (top / NODE_TEXELS) as u32,
             instance_count: instances.len() as u32,
             environment_light: u32::MAX,
             attribute_stride: layout.stride as u32,
@@ -259,11 +266,10 @@ impl GpuScene {
         }
         header.light_count = light_table.len() as u32;
 
-        let mut nodes = vec![Texel::default(); top_texels];
-        nodes.extend_from_slice(folded::texels(&geometry.nodes));
-        let rows = folded::texels(&geometry.rows);
-        check_texels(device, "triangles", rows.len())?;
-        check_texels(device, "tree nodes", nodes.len())?;
+        let mut texels = folded::texels(&geometry.rows).to_vec();
+        texels.resize(top + top_texels, Texel::default());
+        texels.extend_from_slice(folded::texels(&geometry.nodes));
+        check_texels(device, "triangles and their trees", texels.len())?;
         check_size(device, "images", size_of_val(words.as_slice()))?;
         check_size(device, "normals and texture coordinates", size_of_val(geometry.attributes.as_slice()))?;
         let empty = storage(device, "placeholder", &[0_u32; 4], 16);
@@ -293,8 +299,7 @@ impl GpuScene {
             buffers: Buffers {
                 scene: empty.clone(),
                 // Replaced below, once the placements are known.
-                nodes: folded("tree nodes", &[]),
-                triangles: folded("visibility lookup table", rows),
+                geometry: folded("geometry", &[]),
                 attributes: storage(device, "normals and texture coordinates", &geometry.attributes, 4),
                 texels: storage(device, "texels", &words, 4),
                 materials: folded("materials", &[]),
@@ -307,9 +312,9 @@ impl GpuScene {
             triangles: geometry.rows.len(),
             few: traits.few_triangles.then(|| geometry.rows.iter().map(|row| row.map(corner)).collect()),
         };
-        let (top, depth) = this.placements(&pose);
-        nodes[..top.len()].copy_from_slice(&top);
-        this.buffers.nodes = folded("tree nodes", &nodes);
+        let (placements, depth) = this.placements(&pose);
+        texels[top..top + placements.len()].copy_from_slice(&placements);
+        this.buffers.geometry = folded("geometry", &texels);
         this.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&this.header), BufferUsages::UNIFORM);
         this.buffers.materials = folded("materials", folded::texels(&this.materials()));
         this.place_lights(device);
@@ -349,9 +354,10 @@ impl GpuScene {
         // One frame more than the movement lasts, so that what has stopped is where it was.
         let moves = before.world != pose.world;
         if self.traits.instanced && (moves || self.moved) {
-            let (top, _) = self.placements(&before);
+            let (placements, _) = self.placements(&before);
             self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
-            folded::replace(device, encoder, &self.buffers.nodes.0, &top);
+            let first_row = self.header.root / (folded::WIDTH / NODE_TEXELS) as u32;
+            folded::replace(device, encoder, &self.buffers.geometry.0, first_row, &placements);
             self.upload_facets(device);
         }
         self.moved = moves;
@@ -359,9 +365,9 @@ impl GpuScene {
         if changed {
             self.revision += 1;
             self.place_lights(device);
-            folded::replace(device, encoder, &self.buffers.lights.0, folded::texels(&self.light_table));
+            folded::replace(device, encoder, &self.buffers.lights.0, 0, folded::texels(&self.light_table));
             if before.emission != pose.emission {
-                folded::replace(device, encoder, &self.buffers.materials.0, folded::texels(&self.materials()));
+                folded::replace(device, encoder, &self.buffers.materials.0, 0, folded::texels(&self.materials()));
             }
         }
         Ok(())
@@ -381,7 +387,7 @@ impl GpuScene {
     pub fn memory(&self) -> u64 {
         let b = &self.buffers;
         let texels = |t: &Texture| u64::from(t.width()) * u64::from(t.height()) * size_of::<Texel>() as u64;
-        let textures = [&b.nodes.0, &b.triangles.0, &b.materials.0, &b.lights.0];
+        let textures = [&b.geometry.0, &b.materials.0, &b.lights.0];
         let buffers = [&b.attributes, &b.texels, &b.facets, &b.facet_owners];
         textures.map(texels).iter().sum::<u64>() + buffers.iter().map(|b| b.size()).sum::<u64>()
     }
@@ -410,8 +416,7 @@ impl GpuScene {
     pub(crate) fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
         let b = &self.buffers;
         let buffer = match binding {
-            "nodes" => return Some(BindingResource::TextureView(&b.nodes.1)),
-            "triangles" => return Some(BindingResource::TextureView(&b.triangles.1)),
+            "geometry" => return Some(BindingResource::TextureView(&b.geometry.1)),
             "materials" => return Some(BindingResource::TextureView(&b.materials.1)),
             "lights" => return Some(BindingResource::TextureView(&b.lights.1)),
             "scene" => &b.scene,
@@ -434,11 +439,11 @@ impl GpuScene {
             return (Vec::new(), 0);
         }
         let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(i.placement(&self.pose), i.bounds)).collect();
-        let top = bvh::over_instances(&boxes);
+        let top = bvh::over_instances(&boxes, self.header.root);
         self.header.set_grid(top.grid);
         let mut texels = folded::texels(&top.nodes).to_vec();
         // As many nodes as any tree over these instances can have, so that the records stay where they are.
-        texels.resize(self.header.instances as usize, Texel::default());
+        texels.resize(top_level_nodes(self.instances.len()) * NODE_TEXELS, Texel::default());
         for instance in &self.instances {
             let now = instance.placement(&self.pose);
             let mirrored = u32::from(now.determinant() < 0.0);
@@ -645,7 +650,7 @@ mod tests {
     fn the_scene_lies_where_the_shaders_read_it() {
         let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_texels,
             environment_alias, environment_width, environment_height, attribute_stride, uv0 as "uv_first",
-            uv1 as "uv_second", environment_density, grid_base, grid_step);
+            uv1 as "uv_second", environment_density, grid_base, root, grid_step);
         assert_layout("Scene", header, size_of::<Header>());
         let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, specular, cutoff,
             base_color_texture, metallic_roughness_texture, emissive_texture);

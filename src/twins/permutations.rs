@@ -92,7 +92,11 @@ fn plans() -> Vec<(Plan, Mode)> {
                 filter: FilterSettings { gradient, ..Default::default() },
                 tracer: TracerSettings { sampling, ..Default::default() },
             };
-            plans.push((Plan::path_traced(&traits, &settings, target), mode));
+            let plan = Plan::path_traced(&traits, &settings, target);
+            if (sampling, gradient, mode) == (Sampling::Both, Gradient::Reshade, Mode::Denoise) {
+                plans.push((plan.clone().on_cpu(), mode));
+            }
+            plans.push((plan, mode));
         }
     }
     for (instanced, filter) in product(&[false, true], &filters()) {
