@@ -329,6 +329,25 @@ pub struct Step {
     pub bindings: Vec<(&'static str, Slot)>,
 }
 
+impl Step {
+    /// The same step for an adapter that is the CPU, see [`Feature::StorageReads`].
+    pub(crate) fn on_cpu(mut self) -> Self {
+        let reads = match self.pass {
+            Pass::GradientPairsFilter | Pass::GradientFilter | Pass::Temporal | Pass::Atrous => true,
+            #[cfg(feature = "path-tracer")]
+            Pass::Trace => true,
+            // With instances it writes as many storage textures as there may be.
+            #[cfg(feature = "path-tracer")]
+            Pass::Visibility => !self.features.has(Feature::Instanced),
+            _ => false,
+        };
+        if reads {
+            self.features = self.features.with(Feature::StorageReads);
+        }
+        self
+    }
+}
+
 /// What to run in a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -384,23 +403,8 @@ impl Plan {
     }
 
     /// The same plan for an adapter that is the CPU.
-    pub(crate) fn on_cpu(mut self) -> Self {
-        for step in &mut self.steps {
-            let reads = match step.pass {
-                Pass::Temporal | Pass::Atrous => true,
-                #[cfg(feature = "path-tracer")]
-                Pass::Trace => true,
-                // With instances it writes as many storage textures as there may be.
-                #[cfg(feature = "path-tracer")]
-                Pass::Visibility => !step.features.has(Feature::Instanced),
-                _ => false,
-            };
-            if reads {
-                step.features = step.features.with(Feature::StorageReads);
-            }
-        }
-        self.features = self.features.with(Feature::StorageReads);
-        self
+    pub(crate) fn on_cpu(self) -> Self {
+        Self { steps: self.steps.into_iter().map(Step::on_cpu).collect(), ..self }
     }
 
     /// The images that the steps use, each once, and whether the previous frame's is used too.

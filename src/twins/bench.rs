@@ -5,7 +5,6 @@ use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::textures::strata;
-use crate::passes::Pass;
 use crate::plan::{Feature, Grid, Slot, Step};
 use crate::{Camera, Settings};
 use std::collections::BTreeMap;
@@ -48,8 +47,8 @@ impl Bench {
     /// same whether it reads textures or storage.
     pub fn run(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
         let outputs = self.run_once(step, inputs);
-        if matches!(step.pass, Pass::Temporal | Pass::Atrous) {
-            let other = Step { features: step.features.with(Feature::StorageReads), ..step.clone() };
+        let other = step.clone().on_cpu();
+        if other != *step {
             assert!(outputs == self.run_once(&other, inputs), "{:?} with storage reads differs", step.pass);
         }
         outputs
