@@ -8,7 +8,7 @@
 #import asvgf::frame::frame
 #import asvgf::color::luminance
 #import asvgf::packing::unpack_rgb
-#import asvgf::strata::{sample_pixel, previous_pixel}
+#import asvgf::strata::{place_now, place_before, previous_pixel}
 #ifdef BLINN_PHONG
 #import asvgf::blinn_phong::shade_pair
 #endif
@@ -94,8 +94,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let now = pair.x;
         var before = pair.y;
 #else
-        let now = luminance(unpack_rgb(textureLoad(radiance, sample_pixel(record, stratum), 0).xy));
-        var before = luminance(unpack_rgb(textureLoad(radiance_previous, previous_pixel(record), 0).xy));
+        let now = luminance(unpack_rgb(textureLoad(radiance, place_now(record, stratum), 0).xy));
+        var before = luminance(unpack_rgb(textureLoad(radiance_previous, place_before(record, stratum), 0).xy));
 #endif
 #ifdef HISTORY_RATIO
         let rescaled = history_ratio(stratum);
@@ -104,8 +104,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
         let larger = max(now, before);
         if larger > DARK {
+#ifdef SIGNED_GRADIENT
+            let difference = now - before;
+#else
+            let difference = abs(now - before);
+#endif
             gradient = vec2(
-                abs(now - before) * pow(larger, frame.gradient_gamma - 1.0),
+                difference * pow(larger, frame.gradient_gamma - 1.0),
                 pow(larger, frame.gradient_gamma),
             );
         }

@@ -4,7 +4,7 @@
 #import asvgf::frame::frame
 #import asvgf::color::luminance
 #import asvgf::packing::unpack_rgb
-#import asvgf::strata::{sample_pixel, previous_pixel}
+#import asvgf::strata::{place_now, place_before}
 
 @group(0) @binding(1) var samples: texture_2d<u32>;
 @group(0) @binding(2) var radiance: texture_2d<u32>;
@@ -23,8 +23,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var now = vec3(0.0);
     var before = vec3(0.0);
     if record.x != 0u {
-        now = unpack_rgb(textureLoad(radiance, sample_pixel(record, stratum), 0).xy);
-        before = unpack_rgb(textureLoad(radiance_previous, previous_pixel(record), 0).xy);
+        now = unpack_rgb(textureLoad(radiance, place_now(record, stratum), 0).xy);
+        before = unpack_rgb(textureLoad(radiance_previous, place_before(record, stratum), 0).xy);
     }
     let l = luminance(now);
     let l_before = luminance(before);

@@ -7,8 +7,13 @@
 @group(0) @binding(1) var radiance: texture_2d<u32>;
 #else
 @group(0) @binding(1) var color: texture_2d<u32>;
+#ifdef BACKGROUND
+@group(0) @binding(7) var radiance: texture_2d<u32>;
 #endif
+#endif
+#ifdef ALBEDO
 @group(0) @binding(2) var albedo: texture_2d<f32>;
+#endif
 #ifdef DIRECT_EMISSION
 @group(0) @binding(3) var emission: texture_2d<u32>;
 #endif
@@ -32,9 +37,19 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef UNFILTERED
     let reflected = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
 #else
-    let reflected = tap_color(textureLoad(color, pixel, 0));
+    let tap = textureLoad(color, pixel, 0);
+    var reflected = tap_color(tap);
+#ifdef BACKGROUND
+    // Nothing was hit, so nothing was filtered: the host's sky.
+    if tap.w == 0u {
+        reflected = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+    }
 #endif
-    var result = reflected * textureLoad(albedo, pixel, 0).xyz;
+#endif
+    var result = reflected;
+#ifdef ALBEDO
+    result *= textureLoad(albedo, pixel, 0).xyz;
+#endif
 #ifdef DIRECT_EMISSION
     result += unpack_rgb(textureLoad(emission, pixel, 0).xy);
 #endif

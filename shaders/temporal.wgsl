@@ -7,6 +7,9 @@
 #import asvgf::color::luminance
 #import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_tap, pack_length_lambda, unpack_length}
 #import asvgf::reproject::{Origin, origin_of, same_surface}
+#ifdef EXTERNAL_LAMBDA
+#import asvgf::color::is_finite
+#endif
 #ifdef GRADIENT
 #import asvgf::frame::{world_position, sample_point}
 #import asvgf::strata::{is_sample_pixel, stratum_of}
@@ -31,6 +34,9 @@
 #ifdef HISTORY_RATIO
 @group(0) @binding(12) var ratio: texture_2d<f32>;
 #endif
+#endif
+#ifdef EXTERNAL_LAMBDA
+@group(0) @binding(10) var external_lambda: texture_2d<f32>;
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
 // What the spatial filter reads.
@@ -210,7 +216,26 @@ fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Cha
     let g = sum.gradient + BORROWED * sum.around;
     let scale = select(0.0, 1.0 / sum.weight, sum.weight > 0.0);
     // λ may not exceed 1 by an ulp, as (1 − λ)^k would then be NaN.
-    return Change(1.0 + sum.ratio * scale, clamp(g.x / max(g.y, 1e-37), 0.0, 1.0));
+    let lambda = abs(g.x) / max(g.y, 1e-37) - frame.dead_zone;
+    return Change(1.0 + sum.ratio * scale, clamp(lambda, 0.0, 1.0));
+}
+#endif
+
+// The part of a history's length that is kept. Above 0, as pow(0, 0) may be anything and a power of 0 is to shorten nothing.
+fn kept_part(lambda: f32) -> f32 {
+    return pow(max(1.0 - lambda, 1e-9), frame.history_power);
+}
+
+#ifdef EXTERNAL_LAMBDA
+// λ as the host knows it. What is not a number tells nothing.
+fn lambda_at(pixel: vec2<u32>) -> f32 {
+    let value = textureLoad(external_lambda, pixel / frame.lambda_block, 0).x;
+#ifdef CONFIDENCE
+    let lambda = 1.0 - value;
+#else
+    let lambda = value;
+#endif
+    return select(0.0, clamp(lambda, 0.0, 1.0), is_finite(value));
 }
 #endif
 
@@ -252,8 +277,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         mean_before *= change.ratio.w;
         variance_before *= change.ratio.w * change.ratio.w;
 #endif
-        // Above 0, as pow(0, 0) may be anything and a power of 0 is to shorten nothing.
-        kept *= pow(max(1.0 - lambda, 1e-9), frame.history_power);
+        kept *= kept_part(lambda);
+#endif
+#ifdef EXTERNAL_LAMBDA
+        lambda = lambda_at(id.xy);
+        kept *= kept_part(lambda);
 #endif
 #ifdef BLEND_BY_LAMBDA
         // α' = (1 − λ)·α + λ, as the talk and the paper have it, and never less than what the shortened history asks for.
@@ -263,7 +291,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var alpha = max(1.0 / (kept + 1.0), frame.alpha);
 #endif
         length = min(kept + 1.0, frame.max_history);
-#ifdef RESHADE
+#ifdef IN_PLACE
         // The gradient's sample is not new: averaged in, it would count twice (noise ×1.11). Only where it replaces what λ
         // drops does it count.
         if is_sample_pixel(textureLoad(samples, stratum_of(id.xy), 0), id.xy) {

@@ -1,6 +1,6 @@
 // Shows one intermediate image: as numbers in a float target, as a picture in an rgba8unorm one.
 
-#import asvgf::frame::{frame, inside}
+#import asvgf::frame::{frame, inside, project, sample_point, world_position}
 #import asvgf::color::{is_finite, luminance}
 #import asvgf::packing::{unpack_rgb, tap_color, unpack_normal, unpack_length, unpack_lambda}
 #import asvgf::random::hash
@@ -8,14 +8,19 @@
 #if VIEW == 0
 // Denoised.
 @group(0) @binding(1) var color: texture_2d<u32>;
+#ifdef BACKGROUND
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+#endif
 #endif
 #if VIEW == 1
 // Noisy.
 @group(0) @binding(2) var radiance: texture_2d<u32>;
 #endif
 #if VIEW <= 2
+#ifdef ALBEDO
 // Albedo, and what the two above are multiplied with.
 @group(0) @binding(3) var albedo: texture_2d<f32>;
+#endif
 #endif
 #if VIEW <= 1
 #ifdef DIRECT_EMISSION
@@ -32,6 +37,11 @@
 @group(0) @binding(6) var visibility: texture_2d<u32>;
 #endif
 #if VIEW == 6
+@group(0) @binding(7) var motion: texture_2d<f32>;
+#endif
+#if VIEW == 14
+// Error of the motion.
+@group(0) @binding(5) var guide: texture_2d<u32>;
 @group(0) @binding(7) var motion: texture_2d<f32>;
 #endif
 #if VIEW == 7
@@ -74,14 +84,26 @@ struct Show {
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
 #if VIEW == 0
-    var c = tap_color(textureLoad(color, pixel, 0)) * textureLoad(albedo, pixel, 0).xyz;
+    let tap = textureLoad(color, pixel, 0);
+    var c = tap_color(tap);
+#ifdef BACKGROUND
+    if tap.w == 0u {
+        c = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+    }
+#endif
+#ifdef ALBEDO
+    c *= textureLoad(albedo, pixel, 0).xyz;
+#endif
 #ifdef DIRECT_EMISSION
     c += unpack_rgb(textureLoad(emission, pixel, 0).xy);
 #endif
     return c;
 #endif
 #if VIEW == 1
-    var c = unpack_rgb(textureLoad(radiance, pixel, 0).xy) * textureLoad(albedo, pixel, 0).xyz;
+    var c = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+#ifdef ALBEDO
+    c *= textureLoad(albedo, pixel, 0).xyz;
+#endif
 #ifdef DIRECT_EMISSION
     c += unpack_rgb(textureLoad(emission, pixel, 0).xy);
 #endif
@@ -107,7 +129,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #endif
 #if VIEW == 7
     let g = textureLoad(gradient, pixel / 3, 0).xy;
-    return vec3(clamp(g.x / max(g.y, 1e-30), 0.0, 1.0));
+    return vec3(clamp(abs(g.x) / max(g.y, 1e-30) - frame.dead_zone, 0.0, 1.0));
 #endif
 #if VIEW == 8
     return vec3(unpack_lambda(textureLoad(history, pixel, 0).w));
@@ -135,6 +157,13 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #endif
 #if VIEW == 13
     return vec3(textureLoad(albedo, pixel, 0).w);
+#endif
+#if VIEW == 14
+    let depth = bitcast<f32>(textureLoad(guide, pixel, 0).y);
+    let point = sample_point(frame.camera, vec2<f32>(pixel));
+    let rest = project(frame.previous, world_position(frame.camera, point, depth));
+    let implied = vec3(rest.xy - point, rest.z);
+    return select(vec3(0.0), textureLoad(motion, pixel, 0).xyz - implied, depth > 0.0 && rest.z > 0.0);
 #endif
 }
 
@@ -182,6 +211,9 @@ fn picture(v: vec3<f32>) -> vec3<f32> {
 #if VIEW == 5
     let h = hash(u32(v.x) + 65536u * u32(v.y));
     return vec3(f32(h & 255u), f32((h >> 8u) & 255u), f32((h >> 16u) & 255u)) / 255.0 * v.z;
+#endif
+#if VIEW == 14
+    return vec3(0.5 + 0.5 * clamp(v.xy / show.range, vec2(-1.0), vec2(1.0)), 0.5);
 #endif
 #if VIEW == 6
     return vec3(0.5 + 0.5 * clamp(v.xy / show.range, vec2(-1.0), vec2(1.0)), 0.5);

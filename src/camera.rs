@@ -25,6 +25,50 @@ impl Default for Camera {
     }
 }
 
+/// A perspective camera as renderers have it. Matrices are arrays of columns: `m[column][row]`, as glam's `to_cols_array_2d` gives
+/// them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Matrices {
+    /// World space to view space: a rotation and a translation, without scale. Right- or left-handed.
+    pub view: [[f32; 4]; 4],
+    /// View space to clip space, x right and y up, **without** the jitter. Any depth range: reversed and infinite ones too, as
+    /// depth is not read from it. It may be off-centre.
+    pub projection: [[f32; 4]; 4],
+    /// Where the ray of a pixel goes through it, from its centre, in pixels, x right, y **down**: −½…½. The same for all pixels of a
+    /// frame.
+    pub jitter: [f32; 2],
+}
+
+/// Where a frame is seen from. Both kinds convert into it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Viewpoint {
+    /// Given by where it is and what it looks at.
+    Camera(Camera),
+    /// Given by its matrices.
+    Matrices(Matrices),
+}
+
+impl From<Camera> for Viewpoint {
+    fn from(camera: Camera) -> Self {
+        Self::Camera(camera)
+    }
+}
+
+impl From<Matrices> for Viewpoint {
+    fn from(matrices: Matrices) -> Self {
+        Self::Matrices(matrices)
+    }
+}
+
+impl Viewpoint {
+    pub(crate) fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
+        match self {
+            Self::Camera(camera) => camera.uniform(size),
+            Self::Matrices(matrices) => matrices.uniform(size),
+        }
+    }
+}
+
 /// `Camera` of shaders/shared/frame.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -76,6 +120,71 @@ impl Camera {
             eye: self.eye,
             jitter_x: self.jitter[0],
             forward: narrow(forward),
+            jitter_y: self.jitter[1],
+            corner: narrow(corner),
+            pad: 0.0,
+            du: narrow(du),
+            inverse_du: (1.0 / dot(du, du)) as f32,
+            dv: narrow(dv),
+            inverse_dv: (1.0 / dot(dv, dv)) as f32,
+        })
+    }
+}
+
+impl Matrices {
+    /// As [`Camera::uniform`]. A point v of view space has the linear depth z = s·v_z, s = ±1 by handedness, and the image point
+    /// ndc = A·(v_xy/z) + s·(P₂₀, P₂₁) with A the upper left 2×2 of the projection, divided by |P₂₃|. Solved for v_xy/z, and turned
+    /// into world space, that is the ray of an image point, affine in it.
+    fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
+        let wrong = |element, reason| Err(Error::Camera { element, reason });
+        let finite = |m: &[[f32; 4]; 4]| m.iter().flatten().all(|x| x.is_finite());
+        if !finite(&self.view) || self.view.map(|c| c[3]) != [0.0, 0.0, 0.0, 1.0] {
+            return wrong("view", "is not an affine matrix of finite numbers: its last row must be 0 0 0 1");
+        }
+        if !finite(&self.projection) {
+            return wrong("projection", "is not finite");
+        }
+        if !self.jitter.iter().all(|x| x.is_finite()) {
+            return wrong("jitter", "is not finite");
+        }
+        let [x, y, z, translation] = self.view.map(|c| [c[0], c[1], c[2]].map(f64::from));
+        let products = [dot(x, x) - 1.0, dot(y, y) - 1.0, dot(z, z) - 1.0, dot(x, y), dot(y, z), dot(z, x)];
+        if products.iter().any(|p| p.abs() > 1e-3) {
+            return wrong(
+                "view",
+                "is not a rotation and a translation: depth is measured in the world's unit, so it may not scale",
+            );
+        }
+        let p = self.projection.map(|c| c.map(f64::from));
+        let along = p[2][3].abs();
+        if p[0][3] != 0.0 || p[1][3] != 0.0 || p[3][3] != 0.0 || along < 1e-30 {
+            return wrong("projection", "is not a perspective one: its last row must be 0 0 ±1 0");
+        }
+        let p = p.map(|c| c.map(|e| e / along));
+        let side = p[2][3].signum();
+        let determinant = p[0][0] * p[1][1] - p[1][0] * p[0][1];
+        if determinant.abs() < 1e-12 || p[3][0] != 0.0 || p[3][1] != 0.0 {
+            return wrong("projection", "does not map directions to image points one to one");
+        }
+        // v_xy/z of a point of the image plane, −1…1.
+        let slope = |x: f64, y: f64| {
+            let (x, y) = (x - side * p[2][0], y - side * p[2][1]);
+            [(p[1][1] * x - p[1][0] * y) / determinant, (p[0][0] * y - p[0][1] * x) / determinant]
+        };
+        // View to world: the transpose of the rotation.
+        let world = |v: [f64; 3]| [dot(x, v), dot(y, v), dot(z, v)];
+        let ray = |[x, y]: [f64; 2]| world([x, y, side]);
+        let corner = ray(slope(-1.0, 1.0));
+        let du = scale(subtract(ray(slope(1.0, 1.0)), corner), 1.0 / f64::from(size[0]));
+        let dv = scale(subtract(ray(slope(-1.0, -1.0)), corner), 1.0 / f64::from(size[1]));
+        if dot(du, dv).abs() > 1e-4 * (dot(du, du) * dot(dv, dv)).sqrt() {
+            return wrong("projection", "shears the image");
+        }
+        let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+        Ok(CameraUniform {
+            eye: narrow(scale(world(translation), -1.0)),
+            jitter_x: self.jitter[0],
+            forward: narrow(world([0.0, 0.0, side])),
             jitter_y: self.jitter[1],
             corner: narrow(corner),
             pad: 0.0,
@@ -149,5 +258,117 @@ mod tests {
         assert_eq!(named(Camera { up: [0.0, 0.0, 1.0], ..c }), "up");
         assert_eq!(named(Camera { fov_y: 3.2, ..c }), "fov_y");
         assert_eq!(named(Camera { fov_y: 0.0, ..c }), "fov_y");
+    }
+
+    /// The same view by a matrix: right-handed, looking along −Z.
+    #[cfg(feature = "path-tracer")]
+    fn view_rh(c: &Camera) -> glam::Mat4 {
+        glam::camera::rh::view::look_at_mat4(c.eye.into(), c.target.into(), c.up.into())
+    }
+
+    #[cfg(feature = "path-tracer")]
+    fn oblique() -> Camera {
+        let (eye, target, up) = ([1.0, 2.5, 3.0], [-0.5, 0.4, -1.0], [0.1, 1.0, 0.2]);
+        Camera { eye, target, up, fov_y: 0.9, jitter: [0.25, -0.125] }
+    }
+
+    #[cfg(feature = "path-tracer")]
+    fn assert_same(found: &CameraUniform, expected: &CameraUniform, what: &str) {
+        let numbers = |u: &CameraUniform| -> Vec<f32> { bytemuck::cast_slice(bytemuck::bytes_of(u)).to_vec() };
+        for (i, (f, e)) in numbers(found).iter().zip(numbers(expected)).enumerate() {
+            assert!((f - e).abs() <= 2e-6 * e.abs().max(1.0), "{what}: number {i} is {f}, not {e}");
+        }
+    }
+
+    #[test]
+    #[cfg(feature = "path-tracer")]
+    fn matrices_of_every_convention_give_the_same_camera() {
+        use glam::camera::{lh, rh};
+        let c = oblique();
+        let (size, aspect, fov) = ([64, 48], 64.0 / 48.0, c.fov_y);
+        let expected = c.uniform(size).unwrap();
+        let right = view_rh(&c);
+        // The same world, looking along +Z of a view space that is its mirror image.
+        let left = glam::Mat4::from_scale(glam::Vec3::new(1.0, 1.0, -1.0)) * right;
+        // OpenGL's depth of −1…1, WebGPU's of 0…1, endless, reversed, and both; a projection may be scaled as a whole.
+        let conventions = [
+            ("rh gl", right, rh::proj::opengl::perspective(fov, aspect, 0.1, 50.0)),
+            ("rh", right, rh::proj::directx::perspective(fov, aspect, 0.1, 50.0)),
+            ("rh reversed", right, rh::proj::directx::perspective(fov, aspect, 50.0, 0.1)),
+            ("rh endless", right, rh::proj::directx::perspective_infinite(fov, aspect, 0.1)),
+            ("rh endless reversed", right, rh::proj::directx::perspective_infinite_reverse(fov, aspect, 0.1)),
+            ("lh", left, lh::proj::directx::perspective(fov, aspect, 0.1, 50.0)),
+            ("lh endless reversed", left, lh::proj::directx::perspective_infinite_reverse(fov, aspect, 0.1)),
+            ("scaled", left, lh::proj::directx::perspective(fov, aspect, 0.1, 50.0) * 3.0),
+        ];
+        for (what, view, projection) in conventions {
+            let (view, projection) = (view.to_cols_array_2d(), projection.to_cols_array_2d());
+            assert_same(&Matrices { view, projection, jitter: c.jitter }.uniform(size).unwrap(), &expected, what);
+        }
+    }
+
+    /// Where matrices put points, against the ray of that place: for frusta and worlds that no [`Camera`] describes.
+    #[test]
+    #[cfg(feature = "path-tracer")]
+    fn points_are_seen_where_matrices_put_them() {
+        use glam::camera::lh;
+        use glam::{Mat4, Vec3, Vec4};
+        let c = oblique();
+        let size = [64.0_f32, 48.0];
+        let (l, r, b, t, n) = (-0.2, 0.5, -0.1, 0.4, 0.3);
+        let off_centre = Mat4::from_cols(
+            Vec4::new(2.0 * n / (r - l), 0.0, 0.0, 0.0),
+            Vec4::new(0.0, 2.0 * n / (t - b), 0.0, 0.0),
+            Vec4::new((r + l) / (r - l), (t + b) / (t - b), -1.0, -1.0),
+            Vec4::new(0.0, 0.0, -n, 0.0),
+        );
+        // And a world that is left-handed itself.
+        let left = lh::view::look_at_mat4(c.eye.into(), c.target.into(), c.up.into());
+        let views = [(view_rh(&c), off_centre), (left, lh::proj::directx::perspective(0.9, 0.7, 0.1, 50.0))];
+        let points = [Vec3::new(-0.4, 0.3, -1.5), Vec3::new(0.2, -0.1, 0.3), Vec3::new(-1.5, 1.0, -4.0)];
+        for ((view, projection), point) in views.into_iter().flat_map(|v| points.map(|p| (v, p))) {
+            let matrices =
+                Matrices { view: view.to_cols_array_2d(), projection: projection.to_cols_array_2d(), jitter: [0.0; 2] };
+            let u = matrices.uniform([64, 48]).unwrap();
+            let clip = projection * view * point.extend(1.0);
+            let (x, y) = ((clip.x / clip.w + 1.0) / 2.0 * size[0], (1.0 - clip.y / clip.w) / 2.0 * size[1]);
+            let d = along(&u, x.into(), y.into());
+            for axis in 0..3 {
+                // Linear depth is what a perspective projection divides by.
+                let found = f64::from(u.eye[axis]) + f64::from(clip.w) * d[axis];
+                assert!((found - f64::from(point[axis])).abs() < 1e-4, "{point}: {found} on axis {axis}");
+            }
+        }
+    }
+
+    #[test]
+    fn impossible_matrices_are_refused_by_name() {
+        let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+        let projection = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 0.1, 0.0]];
+        let good = Matrices { view: unit, projection, jitter: [0.0; 2] };
+        assert!(good.uniform([8, 8]).is_ok());
+        let named = |m: Matrices| match Viewpoint::from(m).uniform([8, 8]) {
+            Err(Error::Camera { element, .. }) => element,
+            other => panic!("{other:?}"),
+        };
+        let with = |matrix: [[f32; 4]; 4], column: usize, row: usize, value: f32| {
+            let mut matrix = matrix;
+            matrix[column][row] = value;
+            matrix
+        };
+        for view in [with(unit, 0, 0, 2.0), with(unit, 3, 1, f32::NAN), with(unit, 1, 0, 0.5), with(unit, 0, 3, 1.0)] {
+            assert_eq!(named(Matrices { view, ..good }), "view");
+        }
+        // Orthographic, singular, sheared, not finite.
+        let orthographic = with(with(projection, 2, 3, 0.0), 3, 3, 1.0);
+        for projection in [
+            orthographic,
+            with(projection, 0, 0, 0.0),
+            with(projection, 1, 0, 0.5),
+            with(projection, 2, 2, f32::INFINITY),
+        ] {
+            assert_eq!(named(Matrices { projection, ..good }), "projection");
+        }
+        assert_eq!(named(Matrices { jitter: [f32::NAN, 0.0], ..good }), "jitter");
     }
 }

@@ -1,16 +1,24 @@
 //! The [`Denoiser`]: carries out a [`Plan`] in the host's encoder.
 
-use crate::camera::{Camera, CameraUniform};
+#[cfg(feature = "path-tracer")]
+use crate::camera::Camera;
+use crate::camera::CameraUniform;
 use crate::gpu::compose::{Permutation, Shaders};
+use crate::gpu::counts::{Counters, InputCounts};
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::textures::{Textures, strata};
-use crate::gpu::timing::{FrameTimes, Timing};
+use crate::gpu::timing::{FrameQueries, FrameTimes, Timing};
+use crate::host;
 use crate::passes::{self, Pass};
-use crate::plan::{Feature, Grid, Plan, Slot, Step, Traversal};
+#[cfg(feature = "path-tracer")]
+use crate::plan::Feature;
+use crate::plan::{Grid, Plan, Slot, Step, Traversal};
 #[cfg(feature = "path-tracer")]
 use crate::scene::GpuScene;
-use crate::settings::{Mode, Settings};
+use crate::settings::Settings;
+#[cfg(feature = "path-tracer")]
+use crate::settings::{Gradient, Mode};
 use crate::{Error, View, ViewOptions};
 use std::collections::HashMap;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -31,6 +39,8 @@ pub struct DenoiserDescriptor {
     pub settings: Settings,
     /// Measure each pass on the GPU; needs [`wgpu::Features::TIMESTAMP_QUERY`] on the device.
     pub timing: bool,
+    /// Count the pixels of a host's frames that have to be cleaned, for [`Denoiser::take_counts`].
+    pub diagnostics: bool,
 }
 
 /// One frame of a path-traced scene.
@@ -58,22 +68,28 @@ pub struct Requirements {
     pub limits: Limits,
 }
 
-/// Turns noisy samples into clean frames: traces a `GpuScene` and filters the result.
+/// Turns noisy samples into clean frames: those of the host's own renderer, in two calls a frame
+/// ([`Denoiser::begin_frame`], [`Denoiser::denoise`]), or of a `GpuScene` that it traces itself (`render`).
 ///
 /// It records into the host's encoder and never submits, waits or prints. Several frames, or several denoisers, may be
-/// recorded into one encoder. History lives in the denoiser; use one per view.
+/// recorded into one encoder. History lives in the denoiser; use one per view. A traced frame and a host's do not share it.
 #[derive(Debug)]
 pub struct Denoiser {
-    size: [u32; 2],
-    settings: Settings,
+    pub(crate) size: [u32; 2],
+    pub(crate) settings: Settings,
     shaders: ShadersDebug,
     kernels: HashMap<Permutation, Kernel>,
-    textures: Textures,
+    pub(crate) textures: Textures,
     strides: Buffer,
-    timing: Option<Timing>,
-    last: Option<LastFrame>,
-    parity: usize,
-    history: bool,
+    /// The adapter is the CPU.
+    on_cpu: bool,
+    pub(crate) timing: Option<Timing>,
+    pub(crate) counters: Option<Counters>,
+    /// A host's frame that waits for its light.
+    pub(crate) begun: Option<host::Begun>,
+    pub(crate) last: Option<LastFrame>,
+    pub(crate) parity: usize,
+    pub(crate) history: bool,
 }
 
 /// The composer has no `Debug` of its own.
@@ -87,12 +103,22 @@ impl std::fmt::Debug for ShadersDebug {
 
 /// What the next frame, and [`Denoiser::show`], need of the last one.
 #[derive(Debug)]
-struct LastFrame {
-    plan: Plan,
-    uniform: Buffer,
-    camera: CameraUniform,
-    scene: [u64; 2],
-    index: u32,
+pub(crate) struct LastFrame {
+    pub plan: Plan,
+    pub uniform: Buffer,
+    pub camera: CameraUniform,
+    pub source: Source,
+    pub index: u32,
+}
+
+/// Where a frame's samples came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// A host's renderer.
+    Host,
+    /// The path tracer; the version of its scene.
+    #[cfg(feature = "path-tracer")]
+    Scene([u64; 2]),
 }
 
 impl Denoiser {
@@ -140,7 +166,10 @@ impl Denoiser {
                 contents: &strides,
                 usage: BufferUsages::UNIFORM,
             }),
+            on_cpu: device.adapter_info().device_type == DeviceType::Cpu,
             timing: descriptor.timing.then(|| Timing::new(queue)),
+            counters: descriptor.diagnostics.then(Counters::default),
+            begun: None,
             last: None,
             parity: 0,
             history: false,
@@ -152,7 +181,8 @@ impl Denoiser {
         &self.settings
     }
 
-    /// Changes settings from the next frame on. History is kept unless the new settings keep another kind of it.
+    /// Changes settings from the next frame on. History is kept unless the new settings keep another kind of it. A frame that
+    /// was begun has to be begun again.
     ///
     /// # Errors
     /// The setting that is out of range; the old ones stay in force.
@@ -161,6 +191,7 @@ impl Denoiser {
         if settings.mode != self.settings.mode || settings.filter.feedback != self.settings.filter.feedback {
             self.history = false;
         }
+        self.abandon();
         self.settings = settings;
         Ok(())
     }
@@ -172,6 +203,7 @@ impl Denoiser {
     pub fn resize(&mut self, device: &Device, size: [u32; 2]) -> Result<(), Error> {
         check_size(device, size)?;
         if size != self.size {
+            self.abandon();
             self.size = size;
             self.textures.clear();
             self.last = None;
@@ -180,8 +212,9 @@ impl Denoiser {
         Ok(())
     }
 
-    /// Forgets the history, as after a camera cut.
+    /// Forgets the history, as after a camera cut, and a frame that was begun.
     pub fn reset(&mut self) {
+        self.abandon();
         self.history = false;
     }
 
@@ -204,6 +237,12 @@ impl Denoiser {
     /// as usual.
     pub fn take_times(&mut self) -> Option<FrameTimes> {
         self.timing.as_ref()?.take()
+    }
+
+    /// What had to be cleaned in the oldest finished frame that was not taken yet; `None` while there is none, and always without
+    /// [`DenoiserDescriptor::diagnostics`]. Never waits: poll the device as usual.
+    pub fn take_counts(&mut self) -> Option<InputCounts> {
+        self.counters.as_ref()?.take()
     }
 
     /// Records one frame: traces the scene, filters, and writes linear radiance into the target.
@@ -231,52 +270,48 @@ impl Denoiser {
         mut after: impl FnMut(Pass, &mut CommandEncoder),
     ) -> Result<(), Error> {
         let &Frame { scene, index, target, .. } = frame;
+        let asked = self.settings.filter.gradient;
+        if self.settings.mode == Mode::Denoise && matches!(asked, Gradient::Pairs | Gradient::Lambda) {
+            let reason = "comes from a host's renderer: choose Reshade, BlinnPhong or Off for a scene";
+            return Err(Error::GradientSource { asked, reason });
+        }
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let camera = frame.camera.uniform(self.size)?;
-        let mut plan = Plan::path_traced(&scene.traits(), &self.settings, format);
-        if device.adapter_info().device_type == DeviceType::Cpu {
-            plan = plan.on_cpu();
-        }
+        let plan = self.adapt(Plan::path_traced(&scene.traits(), &self.settings, format));
         self.compile(device, &plan.steps, scene.traversal())?;
+        self.abandon();
         let lost = self.textures.fit(device, self.size, &plan);
         let version = scene.version();
         let last = self.last.as_ref();
-        let mut continued = self.history && !lost && last.is_some_and(|l| l.scene[0] == version[0]);
+        let same_scene = |l: &LastFrame| matches!(l.source, Source::Scene([scene, _]) if scene == version[0]);
+        let mut continued = self.history && !lost && last.is_some_and(same_scene);
         if self.settings.mode == Mode::Reference {
             // A mean over frames is only one of frames that are alike.
-            continued &= last.is_some_and(|l| l.scene == version && l.camera == camera);
+            continued &= last.is_some_and(|l| l.source == Source::Scene(version) && l.camera == camera);
         }
         if plan.features.has(Feature::Reshade) {
             // The scene knows the placements of the last frame only, and the paths to repeat are that frame's.
             continued &= last.is_some_and(|l| l.index.wrapping_add(1) == index);
         }
         let previous = last.filter(|_| continued).map_or(camera, |l| l.camera);
-        let moment = Moment { camera, previous, index, continued };
-        let uniform = device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("asvgf frame"),
-            contents: bytemuck::bytes_of(&FrameUniform::new(self.size, &moment, &self.settings)),
-            usage: BufferUsages::UNIFORM,
-        });
+        let uniform = self.frame_uniform(device, &Moment { camera, previous, index, continued, lambda_block: 1 });
         self.parity ^= 1;
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
-        for step in &plan.steps {
-            let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
-            let scene_resource = |name: &str| scene.resource(name);
-            let resources = Resources {
-                scene: &scene_resource,
-                traversal: scene.traversal(),
-                uniform: &uniform,
-                target,
-                show: None,
-            };
-            self.dispatch(device, encoder, step, &resources, timestamps)?;
-            after(step.pass, encoder);
-        }
+        let given = |name: &str| scene.resource(name);
+        let resources = Resources {
+            given: &given,
+            traversal: scene.traversal(),
+            target: Some(target),
+            uniform: &uniform,
+            counts: None,
+            show: None,
+        };
+        self.record(device, encoder, &plan.steps, &resources, &mut queries, &mut after)?;
         if let (Some(timing), Some(queries)) = (&self.timing, queries) {
             timing.end(device, encoder, queries);
         }
         self.history = true;
-        self.last = Some(LastFrame { plan, uniform, camera, scene: version, index });
+        self.last = Some(LastFrame { plan, uniform, camera, source: Source::Scene(version), index });
         Ok(())
     }
 
@@ -295,6 +330,9 @@ impl Denoiser {
     ) -> Result<(), Error> {
         let accepted = [TextureFormat::Rgba32Float, TextureFormat::Rgba16Float, TextureFormat::Rgba8Unorm];
         let format = self.check_target(target, &accepted)?;
+        if self.begun.is_some() {
+            return Err(Error::NoView { view, reason: "a frame was begun and not denoised" });
+        }
         let Some(last) = self.last.take() else {
             return Err(Error::NoView { view, reason: "no frame was rendered yet" });
         };
@@ -307,10 +345,11 @@ impl Denoiser {
                 usage: BufferUsages::UNIFORM,
             });
             let resources = Resources {
-                scene: &|_| None,
+                given: &|_| None,
                 traversal: Traversal::default(),
+                target: Some(target),
                 uniform: &last.uniform,
-                target,
+                counts: None,
                 show: Some(&show),
             };
             self.dispatch(device, encoder, &step, &resources, None)
@@ -319,9 +358,41 @@ impl Denoiser {
         result
     }
 
-    fn check_target(&self, target: &TextureView, accepted: &[TextureFormat]) -> Result<TextureFormat, Error> {
+    /// One frame's constants: a buffer of its own, as other frames may be recorded before this one is submitted.
+    pub(crate) fn frame_uniform(&self, device: &Device, moment: &Moment) -> Buffer {
+        device.create_buffer_init(&BufferInitDescriptor {
+            label: Some("asvgf frame"),
+            contents: bytemuck::bytes_of(&FrameUniform::new(self.size, moment, &self.settings)),
+            usage: BufferUsages::UNIFORM,
+        })
+    }
+
+    /// Records steps that are compiled.
+    pub(crate) fn record<'a>(
+        &'a self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        steps: &[Step],
+        resources: &Resources<'a>,
+        queries: &mut Option<FrameQueries>,
+        after: &mut impl FnMut(Pass, &mut CommandEncoder),
+    ) -> Result<(), Error> {
+        for step in steps {
+            let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
+            self.dispatch(device, encoder, step, resources, timestamps)?;
+            after(step.pass, encoder);
+        }
+        Ok(())
+    }
+
+    pub(crate) fn check_target(
+        &self,
+        target: &TextureView,
+        accepted: &[TextureFormat],
+    ) -> Result<TextureFormat, Error> {
         let texture = target.texture();
         let format = texture.format();
+        host::shape("target", target)?;
         if !accepted.contains(&format) {
             let accepted = match accepted.len() {
                 2 => "rgba16float or rgba32float",
@@ -341,16 +412,20 @@ impl Denoiser {
     }
 
     fn permutation(step: &Step, traversal: Traversal) -> Permutation {
-        let traverses = ["visibility", "trace"].contains(&step.pass.name());
         Permutation {
             pass: step.pass,
             features: step.features,
-            traversal: if traverses { traversal } else { Traversal::default() },
+            traversal: if step.pass.traces() { traversal } else { Traversal::default() },
             view: if step.pass == Pass::View { step.iteration } else { 0 },
         }
     }
 
-    fn compile(&mut self, device: &Device, steps: &[Step], traversal: Traversal) -> Result<(), Error> {
+    /// The plan as it suits the adapter.
+    pub(crate) fn adapt(&self, plan: Plan) -> Plan {
+        if self.on_cpu { plan.on_cpu() } else { plan }
+    }
+
+    pub(crate) fn compile(&mut self, device: &Device, steps: &[Step], traversal: Traversal) -> Result<(), Error> {
         for step in steps {
             let permutation = Self::permutation(step, traversal);
             if !self.kernels.contains_key(&permutation) {
@@ -396,6 +471,7 @@ impl Denoiser {
         match name {
             "frame" => return Some(given.uniform.as_entire_binding()),
             "show" => return given.show.map(Buffer::as_entire_binding),
+            "counts" => return given.counts.map(Buffer::as_entire_binding),
             "stride" => {
                 return Some(BindingResource::Buffer(BufferBinding {
                     buffer: &self.strides,
@@ -409,20 +485,23 @@ impl Denoiser {
             return match *slot {
                 Slot::Now(image) => self.textures.now(image, self.parity).map(BindingResource::TextureView),
                 Slot::Before(image) => self.textures.before(image, self.parity).map(BindingResource::TextureView),
-                Slot::Target => Some(BindingResource::TextureView(given.target)),
+                Slot::Target => given.target.map(BindingResource::TextureView),
+                Slot::Host => (given.given)(name),
             };
         }
-        (given.scene)(name)
+        (given.given)(name)
     }
 }
 
 /// What a dispatch uses that is not the denoiser's own.
-struct Resources<'a> {
-    scene: &'a dyn Fn(&str) -> Option<BindingResource<'a>>,
-    traversal: Traversal,
-    uniform: &'a Buffer,
-    target: &'a TextureView,
-    show: Option<&'a Buffer>,
+pub(crate) struct Resources<'a> {
+    /// The scene's, or the host's views, by name.
+    pub given: &'a dyn Fn(&str) -> Option<BindingResource<'a>>,
+    pub traversal: Traversal,
+    pub uniform: &'a Buffer,
+    pub target: Option<&'a TextureView>,
+    pub counts: Option<&'a Buffer>,
+    pub show: Option<&'a Buffer>,
 }
 
 fn check_size(device: &Device, size: [u32; 2]) -> Result<(), Error> {

@@ -64,6 +64,39 @@ pub enum Error {
         /// What is missing.
         missing: wgpu::TextureUsages,
     },
+    /// A view's texture is not a plain two-dimensional one.
+    #[error(
+        "the texture of the view `{view}` is {found}; it must have two dimensions, one layer and one sample per pixel"
+    )]
+    ViewShape {
+        /// Which view.
+        view: &'static str,
+        /// What it is instead.
+        found: &'static str,
+    },
+    /// A view that a setting needs was not given.
+    #[error("{setting} needs the view `{view}`: {remedy}")]
+    ViewMissing {
+        /// Which view.
+        view: &'static str,
+        /// The setting.
+        setting: &'static str,
+        /// What would do.
+        remedy: &'static str,
+    },
+    /// The gradient cannot come from where `filter.gradient` says in this kind of frame.
+    #[error("`filter.gradient` is {asked:?}, which {reason}")]
+    GradientSource {
+        /// The setting.
+        asked: crate::Gradient,
+        /// Why not, and what would do.
+        reason: &'static str,
+    },
+    /// [`denoise`](crate::Denoiser::denoise) without its [`begin_frame`](crate::Denoiser::begin_frame).
+    #[error(
+        "`denoise` without `begin_frame`: call that first in each frame, and again after `reset`, `resize` and changed settings"
+    )]
+    NotBegun,
     /// A setting is outside its range.
     #[error("the setting `{setting}` is {value}; it must be {accepted}")]
     Setting {

@@ -1,9 +1,44 @@
 //! Real-time denoising of path-traced images: adaptive spatiotemporal variance-guided filtering (A-SVGF) in WGSL compute
 //! shaders on [`wgpu`].
 //!
-//! A [`Denoiser`] holds the pipelines and the history of one view; a `scene::GpuScene` holds what is traced. Both record into
-//! the host's encoder and never submit, wait, print or own the device. A device with `Limits::default()` and no features is
-//! enough.
+//! A [`Denoiser`] holds the pipelines and the history of one view. It filters the frames of the host's own renderer, in two
+//! calls a frame ([`Denoiser::begin_frame`], [`Denoiser::denoise`]), or those that it traces itself of a `scene::GpuScene`. Both
+//! record into the host's encoder and never submit, wait, print or own the device. A device with `Limits::default()` and no
+//! features is enough.
+//!
+//! With a renderer of one's own:
+//! ```no_run
+//! use asvgf::{Denoiser, Error, Matrices, Shading, Surfaces, wgpu};
+//!
+//! # struct Images { depth: wgpu::TextureView, normal: wgpu::TextureView, motion: wgpu::TextureView,
+//! #     albedo: wgpu::TextureView, radiance: wgpu::TextureView, target: wgpu::TextureView }
+//! fn frame(
+//!     denoiser: &mut Denoiser,
+//!     device: &wgpu::Device,
+//!     encoder: &mut wgpu::CommandEncoder,
+//!     images: &Images,
+//!     camera: Matrices,
+//!     index: u32,
+//!     trace: impl FnOnce(&mut wgpu::CommandEncoder, Option<asvgf::Reshade>),
+//! ) -> Result<(), Error> {
+//!     let surfaces = Surfaces {
+//!         camera: camera.into(),
+//!         index,
+//!         depth: &images.depth,
+//!         normal: &images.normal,
+//!         motion: &images.motion,
+//!         previous_depth: None,
+//!         instance: None,
+//!     };
+//!     // One pixel of each 3×3 is to repeat a path of the last frame: `RESHADE_WGSL` tells the host's shader which.
+//!     let reshade = denoiser.begin_frame(device, encoder, &surfaces)?;
+//!     trace(encoder, reshade);
+//!     let shading = Shading { albedo: Some(&images.albedo), ..Shading::new(&images.radiance, &images.target) };
+//!     denoiser.denoise(device, encoder, &shading)
+//! }
+//! ```
+//!
+//! With the path tracer:
 #![cfg_attr(
     all(feature = "path-tracer", feature = "gltf"),
     doc = r#"
@@ -33,14 +68,9 @@ fn frames(
 )]
 //!
 //! # Conventions
-//! Right-handed world, +Y up, metres; linear Rec. 709 radiance; pixels from the upper left, x right, y down; linear depth along
-//! the view; motion is previous − current position in pixels, without the jitter.
+//! Linear Rec. 709 radiance; pixels from the upper left, x right, y down; linear depth along the view; motion is previous −
+//! current position in pixels, without the jitter. The path tracer's world is right-handed, +Y up, in metres; a host's may be any.
 #![deny(missing_docs)]
-// Without the path tracer nothing feeds the filter yet.
-#![cfg_attr(
-    not(feature = "path-tracer"),
-    allow(dead_code, unused_imports, reason = "the host's own frames are to come")
-)]
 #![warn(missing_debug_implementations)]
 
 pub use wgpu;
@@ -53,6 +83,7 @@ mod camera;
 mod denoiser;
 mod error;
 mod gpu;
+mod host;
 #[cfg(feature = "image")]
 pub mod image_io;
 mod passes;
@@ -64,15 +95,22 @@ mod settings;
 mod twins;
 mod view;
 
-pub use camera::Camera;
+pub use camera::{Camera, Matrices, Viewpoint};
 #[cfg(feature = "path-tracer")]
 pub use denoiser::Frame;
 pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements};
 pub use error::Error;
+pub use gpu::counts::InputCounts;
 pub use gpu::timing::FrameTimes;
+pub use host::{Lambda, Pairs, Reshade, Shading, Surfaces};
 pub use passes::Pass;
 pub use settings::*;
 pub use view::{View, ViewOptions};
+
+/// WGSL for a host's own shader, for [`Gradient::Reshade`]: `asvgf_surface(frame, guide, repeats, pixel)` returns an
+/// `AsvgfSurface`: which point to shade in a pixel, and which pixel and frame to seed the random numbers from. It declares no
+/// bindings; bind [`Reshade`]'s three where you like, as `var<uniform> …: AsvgfFrame` and two `texture_2d<u32>`.
+pub const RESHADE_WGSL: &str = include_str!("../shaders/host/reshade.wgsl");
 
 /// A host may record in any thread (in browsers GPU objects belong to one).
 #[cfg(not(target_arch = "wasm32"))]

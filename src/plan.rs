@@ -1,4 +1,4 @@
-//! What to run and why, as plain data: a pure function of the scene's traits and the settings.
+//! What to run and why, as plain data: a pure function of the settings and of what a scene, or a host's views, have.
 //!
 //! The plan lists the passes in order, each with the features that are compiled into its shader and the images that it reads
 //! and writes. [`Denoiser`](crate::Denoiser) only carries it out.
@@ -32,6 +32,39 @@ pub struct Traits {
     pub unlit: bool,
     /// So few triangles, on an adapter that is the CPU, that testing each is faster than a tree.
     pub few_triangles: bool,
+}
+
+/// What a host's views have. Everything that is absent is left out of the shaders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct HostTraits {
+    /// Normals are points of the unfolded octahedron.
+    pub octahedral_normals: bool,
+    /// Normals come as 0…1 instead of −1…1.
+    pub mapped_normals: bool,
+    /// Normals are two 16-bit numbers in one word.
+    pub packed_normals: bool,
+    /// The depth that each point had is given.
+    pub previous_depth: bool,
+    /// Objects are numbered.
+    pub instances: bool,
+    /// … by floats.
+    pub float_instances: bool,
+    /// There is an albedo.
+    pub albedo: bool,
+    /// Emission is given apart.
+    pub emission: bool,
+    /// The radiance was divided by the albedo and has no emission.
+    pub demodulated: bool,
+    /// The gradient's pairs are luminances.
+    pub luminance_pairs: bool,
+    /// There is one pair per stratum instead of an image with mostly none.
+    pub stratum_pairs: bool,
+    /// The pairs' paths stand in the radiance in the place of their pixels' own.
+    pub pairs_in_place: bool,
+    /// The λ image is a confidence, 1 − λ.
+    pub confidence: bool,
+    /// Input that has to be cleaned is counted.
+    pub diagnostics: bool,
 }
 
 /// Something that is compiled into a shader or not. The names in WGSL are the same in capitals.
@@ -99,10 +132,42 @@ pub enum Feature {
     TargetF16,
     /// The target is rgba8unorm and shows a tone-mapped picture.
     TargetPicture,
+    /// What is filtered was divided by an albedo.
+    Albedo,
+    /// Where nothing was hit the samples are shown as they are.
+    Background,
+    /// Normals are points of the unfolded octahedron.
+    OctahedralNormals,
+    /// Normals come as 0…1.
+    MappedNormals,
+    /// Normals come as two 16-bit numbers in one word.
+    PackedNormals,
+    /// The host knows the depth that each point had.
+    PreviousDepth,
+    /// The host's objects have floats for numbers.
+    FloatObjects,
+    /// The host's radiance is still multiplied by the albedo and has the emission in it.
+    Modulated,
+    /// The gradient comes from pairs that the host made.
+    Pairs,
+    /// Those pairs are luminances.
+    LuminancePairs,
+    /// Those pairs come one per stratum.
+    StratumPairs,
+    /// The gradient's paths stand in the radiance in the place of their pixels' own.
+    InPlace,
+    /// Differences of the gradient keep their sign.
+    SignedGradient,
+    /// λ is the host's.
+    ExternalLambda,
+    /// The host gives 1 − λ.
+    Confidence,
+    /// Input that has to be cleaned is counted.
+    Diagnostics,
 }
 
 impl Feature {
-    const ALL: [Self; 30] = {
+    const ALL: [Self; 46] = {
         use Feature::*;
         [
             Instanced,
@@ -135,6 +200,22 @@ impl Feature {
             StorageReads,
             TargetF16,
             TargetPicture,
+            Albedo,
+            Background,
+            OctahedralNormals,
+            MappedNormals,
+            PackedNormals,
+            PreviousDepth,
+            FloatObjects,
+            Modulated,
+            Pairs,
+            LuminancePairs,
+            StratumPairs,
+            InPlace,
+            SignedGradient,
+            ExternalLambda,
+            Confidence,
+            Diagnostics,
         ]
     };
 
@@ -250,6 +331,12 @@ pub enum Image {
     Color(u8),
     /// Records of the strata.
     Samples,
+    /// Of each stratum what the host needs to repeat its path: two texels.
+    Repeats,
+    /// Demodulated radiance now of the pair that the host made for the stratum.
+    PairNow,
+    /// The radiance before of that pair.
+    PairBefore,
     /// Radiances now of the gradient's pairs; two take turns while they are filtered.
     PairsNow(u8),
     /// Radiances before.
@@ -278,8 +365,10 @@ impl Image {
     pub fn format(self) -> TextureFormat {
         match self {
             Self::Visibility | Self::Object => TextureFormat::R32Uint,
-            Self::Guide | Self::Radiance | Self::Emission | Self::Feedback => TextureFormat::Rg32Uint,
-            Self::History | Self::Samples | Self::Color(_) => TextureFormat::Rgba32Uint,
+            Self::Guide | Self::Radiance | Self::Emission | Self::Feedback | Self::PairNow | Self::PairBefore => {
+                TextureFormat::Rg32Uint
+            }
+            Self::History | Self::Samples | Self::Repeats | Self::Color(_) => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
             Self::PairsProduct(_) => TextureFormat::R32Float,
             Self::Gradient(_) => TextureFormat::Rg32Float,
@@ -293,6 +382,9 @@ impl Image {
     pub fn grid(self) -> Grid {
         match self {
             Self::Samples
+            | Self::Repeats
+            | Self::PairNow
+            | Self::PairBefore
             | Self::PairsNow(_)
             | Self::PairsBefore(_)
             | Self::PairsProduct(_)
@@ -300,6 +392,11 @@ impl Image {
             | Self::Ratio => Grid::Strata,
             _ => Grid::Pixels,
         }
+    }
+
+    /// Texels side by side for each pixel or stratum.
+    pub fn texels(self) -> u32 {
+        if self == Self::Repeats { 2 } else { 1 }
     }
 }
 
@@ -312,6 +409,8 @@ pub enum Slot {
     Before(Image),
     /// The host's target.
     Target,
+    /// The host's view of the binding's name.
+    Host,
 }
 
 /// One dispatch.
@@ -380,6 +479,32 @@ impl Plan {
         plan
     }
 
+    /// The passes that a frame of the host's own renderer needs.
+    pub fn hosted(traits: &HostTraits, settings: &Settings, target: TextureFormat) -> Self {
+        let features = hosted_features(traits, settings);
+        let features = if target == TextureFormat::Rgba16Float { features.with(Feature::TargetF16) } else { features };
+        let mut plan =
+            Self { steps: vec![passes::ingest_surface::step(features)], features, color: None, gradient: None };
+        if features.has(Feature::Reshade) {
+            plan.steps.push(passes::gradient_sample::step(features));
+            plan.steps.push(passes::reshade::step(features));
+        }
+        plan.steps.push(passes::ingest_radiance::step(features));
+        if features.has(Feature::Pairs) {
+            plan.steps.push(passes::ingest_pairs::step(features));
+        }
+        if settings.mode == Mode::Denoise {
+            plan.filter(&settings.filter);
+        }
+        plan.steps.push(passes::resolve::step(features, plan.color));
+        plan
+    }
+
+    /// How many of the steps need no radiance: those that [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) records.
+    pub fn surface_steps(&self) -> usize {
+        self.steps.iter().take_while(|step| step.pass != Pass::IngestRadiance).count()
+    }
+
     /// The passes from noisy radiance to filtered colour.
     fn filter(&mut self, filter: &FilterSettings) {
         let features = self.features;
@@ -436,30 +561,69 @@ fn traced_features(traits: &Traits, settings: &Settings) -> Features {
         (Emitters, traits.emitters),
         (PunctualLights, traits.punctual_lights),
         (EnvironmentLight, traits.environment),
+        (Albedo, true),
         (DirectEmission, traits.emitters || traits.environment || traits.unlit),
         (LightSamplesOnly, sampling == Sampling::Lights),
         (ScatteredRaysOnly, sampling == Sampling::Scattered),
         (Unfiltered, settings.mode != Mode::Denoise),
         (Accumulate, settings.mode == Mode::Reference),
     ];
-    let chosen: Features = scene.into_iter().filter(|(_, on)| *on).map(|(f, _)| f).collect();
-    if settings.mode == Mode::Denoise {
-        chosen.iter().chain(filter_features(&settings.filter).iter()).collect()
-    } else {
-        chosen
+    with_filter(&scene, settings)
+}
+
+fn hosted_features(traits: &HostTraits, settings: &Settings) -> Features {
+    use Feature::*;
+    let denoise = settings.mode == Mode::Denoise;
+    let pairs = denoise && settings.filter.gradient == settings::Gradient::Pairs;
+    let lambda = denoise && settings.filter.gradient == settings::Gradient::Lambda;
+    let host = [
+        (OctahedralNormals, traits.octahedral_normals),
+        (MappedNormals, traits.mapped_normals),
+        (PackedNormals, traits.packed_normals),
+        (PreviousDepth, traits.previous_depth),
+        (Objects, traits.instances),
+        (FloatObjects, traits.instances && traits.float_instances),
+        (Albedo, traits.albedo),
+        (DirectEmission, traits.emission),
+        (Modulated, !traits.demodulated && (traits.albedo || traits.emission)),
+        (Background, denoise),
+        (LuminancePairs, pairs && traits.luminance_pairs),
+        (StratumPairs, pairs && traits.stratum_pairs),
+        (InPlace, pairs && traits.pairs_in_place),
+        (Confidence, lambda && traits.confidence),
+        (Diagnostics, traits.diagnostics),
+        (Unfiltered, !denoise),
+        (Accumulate, settings.mode == Mode::Reference),
+    ];
+    with_filter(&host, settings)
+}
+
+/// What is on in a list, and what the filter's settings ask for where there is a filter.
+fn with_filter(list: &[(Feature, bool)], settings: &Settings) -> Features {
+    let chosen = list.iter().filter(|(_, on)| *on).map(|(f, _)| *f);
+    match settings.mode {
+        Mode::Denoise => chosen.chain(filter_features(&settings.filter).iter()).collect(),
+        Mode::Noisy | Mode::Reference => chosen.collect(),
     }
 }
 
 fn filter_features(filter: &FilterSettings) -> Features {
     use Feature::*;
-    let reshade = filter.gradient == settings::Gradient::Reshade;
+    let source = filter.gradient;
+    let reshade = source == settings::Gradient::Reshade;
+    let pairs = source == settings::Gradient::Pairs;
+    let strata = reshade || pairs || source == settings::Gradient::BlinnPhong;
     let spatial = filter.iterations > 0;
     [
-        (Gradient, filter.gradient != settings::Gradient::Off),
+        (Gradient, strata),
         (Reshade, reshade),
-        (BlinnPhong, filter.gradient == settings::Gradient::BlinnPhong),
+        (InPlace, reshade),
+        (BlinnPhong, source == settings::Gradient::BlinnPhong),
+        (Pairs, pairs),
+        (SignedGradient, strata && filter.gradient_signed),
+        (ExternalLambda, source == settings::Gradient::Lambda),
         // An analytic pair is blind to what blocks a light: its ratio would rescale shadows too.
-        (HistoryRatio, reshade && filter.history_ratio),
+        (HistoryRatio, (reshade || pairs) && filter.history_ratio),
         (BlendByLambda, filter.blend == Blend::Lambda),
         (Feedback, spatial && filter.feedback),
         (VarianceOfMean, filter.variance == Variance::OfMean),

@@ -62,6 +62,7 @@ impl Settings {
         within("filter.history_power", f.history_power, 0.0, 64.0, "0…64")?;
         within("filter.gradient_gamma", f.gradient_gamma, 0.0, 1.0, "0…1")?;
         within("filter.gradient_iterations", f.gradient_iterations as f32, 0.0, 7.0, "0…7")?;
+        within("filter.gradient_dead_zone", f.gradient_dead_zone, 0.0, 1.0, "0…1")?;
         within("filter.ratio_iterations", f.ratio_iterations as f32, 0.0, 7.0, "0…7")?;
         within("filter.iterations", f.iterations as f32, 0.0, 8.0, "0…8")?;
         within("filter.sigma_luminance", f.sigma_luminance, 0.0, 1e6, "0…10⁶")?;
@@ -103,7 +104,7 @@ pub struct FilterSettings {
     /// a change. 0 never shortens.
     pub history_power: f32,
     /// Rescale the history by the ratio that the gradient samples show before blending, and drop only what the ratio does
-    /// not explain: less lag and less noise where light moves or dims. Re-shading only. Changing it compiles.
+    /// not explain: less lag and less noise where light moves or dims. Re-shading and pairs only. Changing it compiles.
     pub history_ratio: bool,
     /// Iterations that spread that ratio over the strata, 0…7. More: a steadier ratio, farther from where the light changed.
     pub ratio_iterations: u32,
@@ -113,6 +114,12 @@ pub struct FilterSettings {
     /// Iterations that spread the gradient over the strata, 0…7; each doubles the reach (3, 9, 21 pixels …). More: steadier,
     /// and more history is dropped around a change.
     pub gradient_iterations: u32,
+    /// Let differences of opposite sign cancel in λ = max(0, |A\[Δ^(γ−1)·δ\]| / A\[Δ^γ\] − dead zone): for hosts whose pairs do
+    /// not repeat their random numbers, so that each difference is mostly noise; take 5 `gradient_iterations` and a
+    /// `gradient_dead_zone` of 0.1 with it. A shadow that moves cancels too: repeat the numbers where you can. Changing it compiles.
+    pub gradient_signed: bool,
+    /// What is subtracted from λ, 0…1. Higher: noise in the gradient costs no history, and small changes of light lag.
+    pub gradient_dead_zone: f32,
     /// How λ enters the weight of the new frame. Changing it compiles.
     pub blend: Blend,
     /// Feed the colour of the first spatial iteration back into history, as SVGF does: smoother at first, blurred for
@@ -152,6 +159,8 @@ impl Default for FilterSettings {
             ratio_iterations: 3,
             gradient_gamma: 0.5,
             gradient_iterations: 2,
+            gradient_signed: false,
+            gradient_dead_zone: 0.0,
             blend: Blend::HistoryLength,
             feedback: false,
             variance: Variance::OfMean,
@@ -179,6 +188,8 @@ impl FilterSettings {
             ratio_iterations: 3,
             gradient_gamma: 0.0,
             gradient_iterations: 3,
+            gradient_signed: false,
+            gradient_dead_zone: 0.0,
             blend: Blend::Lambda,
             feedback: true,
             variance: Variance::OfSample,
@@ -198,12 +209,17 @@ impl FilterSettings {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Gradient {
     /// One pixel of each 3×3 repeats a path of the last frame, random numbers included, in this frame's scene (Schied et al.
-    /// 2018): sees every change of light, shadow and geometry. Costs no extra ray.
+    /// 2018): sees every change of light, shadow and geometry. Costs no extra ray. Where the host renders,
+    /// [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) says which pixels and paths.
     #[default]
     Reshade,
     /// Deferred Blinn–Phong shading of this and the last frame's lights, without shadows: no ray, no noise, blind to what
-    /// blocks the light.
+    /// blocks the light. Only for the crate's own path tracer, as it needs the scene.
     BlinnPhong,
+    /// Pairs that the host made, see [`Pairs`](crate::Pairs). Only for frames of a host's renderer.
+    Pairs,
+    /// λ itself, or a confidence, from the host, see [`Lambda`](crate::Lambda). Only for frames of a host's renderer.
+    Lambda,
     /// None: α is constant.
     Off,
 }

@@ -11,7 +11,7 @@ pub enum View {
     Denoised = 0,
     /// The samples as traced: linear radiance. Picture: tone-mapped.
     Noisy = 1,
-    /// What radiance was divided by before filtering, 10⁻³…1; 0 where nothing was hit.
+    /// What radiance was divided by before filtering, 10⁻³…1; 0 (a host's: 1) where nothing was hit.
     Albedo = 2,
     /// World-space normal, −1…1; 0 where nothing was hit.
     Normal = 3,
@@ -36,11 +36,15 @@ pub enum View {
     /// Rays that the pixel cost in this frame, shadow rays and the primary one included; exact to 2048. Picture: white at
     /// [`ViewOptions::range`].
     Rays = 13,
+    /// The host's motion less the motion that depth and both cameras imply for a point at rest: pixels in red and green, the
+    /// difference of the previous depths in blue. Zero but for objects that move; if the whole image changes with the camera, a
+    /// sign, a unit or a matrix is wrong. Picture: grey is none.
+    MotionError = 14,
 }
 
 impl View {
     /// Every view, in order.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Denoised,
         Self::Noisy,
         Self::Albedo,
@@ -55,6 +59,7 @@ impl View {
         Self::Variance,
         Self::NonFinite,
         Self::Rays,
+        Self::MotionError,
     ];
 
     /// The name in lower case with hyphens: `history-length`.
@@ -74,6 +79,7 @@ impl View {
             Self::Variance => "variance",
             Self::NonFinite => "non-finite",
             Self::Rays => "rays",
+            Self::MotionError => "motion-error",
         }
     }
 
@@ -81,6 +87,7 @@ impl View {
     pub fn default_range(self) -> f32 {
         match self {
             Self::Motion => 8.0,
+            Self::MotionError => 2.0,
             Self::HistoryLength => 64.0,
             Self::Rays => 16.0,
             _ => 4.0,

@@ -51,6 +51,10 @@ struct Frame {
     ratio_chroma_limit: f32,
     ratio_prior: f32,
     ratio_shrinkage: f32,
+    // Subtracted from λ.
+    dead_zone: f32,
+    // Pixels of each direction that share a texel of the host's λ.
+    lambda_block: u32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -73,7 +73,11 @@ fn unpack_normal(bits: u32) -> vec3<f32> {
 
 // A unit vector as two 16-bit numbers on the unfolded octahedron (Meyer et al. 2010, "On Floating-Point Normal Vectors").
 fn unpack_octahedral(bits: u32) -> vec3<f32> {
-    let e = vec2(f32(bits & 0xffffu), f32(bits >> 16u)) * (2.0 / 65535.0) - 1.0;
+    return octahedral(vec2(f32(bits & 0xffffu), f32(bits >> 16u)) * (2.0 / 65535.0) - 1.0);
+}
+
+// The unit vector of a point of the unfolded octahedron, −1…1.
+fn octahedral(e: vec2<f32>) -> vec3<f32> {
     let z = 1.0 - abs(e.x) - abs(e.y);
     let fold = max(-z, 0.0);
     return normalize(vec3(e - select(vec2(-fold), vec2(fold), e >= vec2(0.0)), z));

@@ -25,6 +25,23 @@ fn sample_pixel(record: vec4<u32>, stratum: vec2<i32>) -> vec2<i32> {
     return stratum * SIZE + vec2<i32>(vec2(place - 3u * row, row));
 }
 
+// Where the two radiances of the stratum's path are: in the images of two frames, or in those of the host's pairs.
+fn place_now(record: vec4<u32>, stratum: vec2<i32>) -> vec2<i32> {
+#ifdef PAIRS
+    return stratum;
+#else
+    return sample_pixel(record, stratum);
+#endif
+}
+
+fn place_before(record: vec4<u32>, stratum: vec2<i32>) -> vec2<i32> {
+#ifdef PAIRS
+    return stratum;
+#else
+    return previous_pixel(record);
+#endif
+}
+
 fn previous_pixel(record: vec4<u32>) -> vec2<i32> {
     return vec2<i32>(vec2(record.y & 0xffffu, record.y >> 16u));
 }

@@ -13,6 +13,7 @@ const SHARED: &[(&str, &str)] = &[
     ("packing", include_str!("../../shaders/shared/packing.wgsl")),
     ("random", include_str!("../../shaders/shared/random.wgsl")),
     ("frame", include_str!("../../shaders/shared/frame.wgsl")),
+    ("counts", include_str!("../../shaders/shared/counts.wgsl")),
     ("strata", include_str!("../../shaders/shared/strata.wgsl")),
     ("edge_stop", include_str!("../../shaders/shared/edge_stop.wgsl")),
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),

@@ -31,15 +31,19 @@ pub(crate) struct FrameUniform {
     ratio_chroma_limit: f32,
     ratio_prior: f32,
     ratio_shrinkage: f32,
-    pad: [u32; 2],
+    dead_zone: f32,
+    lambda_block: u32,
 }
 
 /// What differs from frame to frame.
+#[derive(Clone, Debug)]
 pub(crate) struct Moment {
     pub camera: CameraUniform,
     pub previous: CameraUniform,
     pub index: u32,
     pub continued: bool,
+    /// Pixels of each direction that share a texel of the host's λ.
+    pub lambda_block: u32,
 }
 
 impl FrameUniform {
@@ -82,7 +86,8 @@ impl FrameUniform {
             ratio_chroma_limit: 1.5,
             ratio_prior: 0.05,
             ratio_shrinkage: 90.0,
-            pad: [0; 2],
+            dead_zone: f.gradient_dead_zone,
+            lambda_block: moment.lambda_block,
         }
     }
 }
@@ -96,7 +101,7 @@ mod tests {
     fn the_frame_lies_where_the_shader_reads_it() {
         let fields = fields!(FrameUniform: camera, previous, size, strata, index, seed, continued, samples, bounces, roulette,
             alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
-            ratio_chroma_limit, ratio_prior, ratio_shrinkage);
+            ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block);
         assert_layout("Frame", fields, size_of::<FrameUniform>());
     }
 }

@@ -1,7 +1,9 @@
 //! The machinery that carries a plan out: composed shaders, textures, uniforms, timing, readback.
 
 pub(crate) mod compose;
+pub(crate) mod counts;
 pub(crate) mod frame;
 pub(crate) mod kernel;
+pub(crate) mod readback;
 pub(crate) mod textures;
 pub(crate) mod timing;

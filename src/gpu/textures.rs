@@ -21,7 +21,14 @@ impl Textures {
     /// there is no history.
     pub fn fit(&mut self, device: &Device, size: [u32; 2], plan: &Plan) -> bool {
         let needed: BTreeMap<Image, bool> = plan.images().into_iter().collect();
-        self.views.retain(|image, views| needed.get(image).is_some_and(|&pair| views.len() == 1 + usize::from(pair)));
+        self.views.retain(|image, _| needed.contains_key(image));
+        self.grow(device, size, plan)
+    }
+
+    /// As [`Textures::fit`], and keeps what the plan does not need.
+    pub fn grow(&mut self, device: &Device, size: [u32; 2], plan: &Plan) -> bool {
+        let needed: BTreeMap<Image, bool> = plan.images().into_iter().collect();
+        self.views.retain(|image, views| needed.get(image).is_none_or(|&pair| views.len() == 1 + usize::from(pair)));
         let mut lost = false;
         for (&image, &pair) in &needed {
             self.views.entry(image).or_insert_with(|| {
@@ -54,10 +61,11 @@ impl Textures {
 }
 
 fn extent(image: Image, size: [u32; 2]) -> [u32; 2] {
-    match image.grid() {
+    let [width, height] = match image.grid() {
         Grid::Pixels => size,
         Grid::Strata => strata(size),
-    }
+    };
+    [image.texels() * width, height]
 }
 
 fn bytes(image: Image, size: [u32; 2]) -> u64 {

@@ -1,16 +1,16 @@
 //! GPU times by timestamps at the passes' boundaries, read back without waiting.
 
-use std::sync::{Arc, Mutex};
+use super::readback::Mailbox;
 use wgpu::{
-    Buffer, BufferDescriptor, BufferUsages, CommandEncoder, ComputePassTimestampWrites, Device, MapMode, QuerySet,
-    QuerySetDescriptor, QueryType, Queue,
+    BufferDescriptor, BufferUsages, CommandEncoder, ComputePassTimestampWrites, Device, QuerySet, QuerySetDescriptor,
+    QueryType, Queue,
 };
 
 /// Times of one frame's passes on the GPU.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FrameTimes {
-    /// `Frame::index`.
+    /// `Frame::index`, or `Surfaces::index`.
     pub frame: u32,
     /// Name of each pass and its milliseconds, in order; iterations one by one.
     pub passes: Vec<(&'static str, f64)>,
@@ -23,16 +23,14 @@ impl FrameTimes {
     }
 }
 
-/// Frames whose times wait to be taken; older ones are dropped, so that a host that never asks loses no memory.
-const KEPT: usize = 256;
-
 #[derive(Debug)]
 pub(crate) struct Timing {
     milliseconds_per_tick: f64,
-    done: Arc<Mutex<Vec<FrameTimes>>>,
+    done: Mailbox<FrameTimes>,
 }
 
 /// The queries of one frame.
+#[derive(Debug)]
 pub(crate) struct FrameQueries {
     set: QuerySet,
     names: Vec<&'static str>,
@@ -42,7 +40,7 @@ pub(crate) struct FrameQueries {
 impl Timing {
     pub fn new(queue: &Queue) -> Self {
         let milliseconds_per_tick = f64::from(queue.get_timestamp_period()) * 1e-6;
-        Self { milliseconds_per_tick, done: Arc::default() }
+        Self { milliseconds_per_tick, done: Mailbox::default() }
     }
 
     /// Queries for a frame of `passes` passes.
@@ -57,43 +55,26 @@ impl Timing {
 
     /// Resolves a frame's queries and maps them once the host has submitted.
     pub fn end(&self, device: &Device, encoder: &mut CommandEncoder, queries: FrameQueries) {
-        let size = 16 * queries.names.len() as u64;
-        let buffer = |label, usage| -> Buffer {
-            device.create_buffer(&BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
-        };
-        let resolved = buffer("asvgf timestamps", BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC);
-        let readable = buffer("asvgf timestamps readback", BufferUsages::COPY_DST | BufferUsages::MAP_READ);
-        encoder.resolve_query_set(&queries.set, 0..2 * queries.names.len() as u32, &resolved, 0);
-        encoder.copy_buffer_to_buffer(&resolved, 0, &readable, 0, size);
+        let count = 2 * queries.names.len() as u32;
+        let resolved = device.create_buffer(&BufferDescriptor {
+            label: Some("asvgf timestamps"),
+            size: 8 * u64::from(count),
+            usage: BufferUsages::QUERY_RESOLVE | BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        });
+        encoder.resolve_query_set(&queries.set, 0..count, &resolved, 0);
         let milliseconds = self.milliseconds_per_tick;
-        let done = Arc::clone(&self.done);
-        let mapped = readable.clone();
-        encoder.map_buffer_on_submit(&readable, MapMode::Read, 0..size, move |result| {
-            if result.is_err() {
-                return;
-            }
-            let Ok(bytes) = mapped.slice(..).get_mapped_range() else { return };
+        self.done.fetch(device, encoder, &resolved, "asvgf timestamps readback", move |bytes| {
             let ticks: Vec<u64> =
                 bytes.chunks_exact(8).map(|b| u64::from_le_bytes(b.try_into().unwrap_or_default())).collect();
-            let passes = queries
-                .names
-                .iter()
-                .zip(ticks.chunks_exact(2))
-                .map(|(name, t)| (*name, t[1].saturating_sub(t[0]) as f64 * milliseconds))
-                .collect();
-            if let Ok(mut done) = done.lock() {
-                if done.len() >= KEPT {
-                    done.remove(0);
-                }
-                done.push(FrameTimes { frame: queries.frame, passes });
-            }
+            let times = ticks.chunks_exact(2).map(|t| t[1].saturating_sub(t[0]) as f64 * milliseconds);
+            FrameTimes { frame: queries.frame, passes: queries.names.into_iter().zip(times).collect() }
         });
     }
 
     /// Times of the oldest frame that is done and was not taken yet.
     pub fn take(&self) -> Option<FrameTimes> {
-        let mut done = self.done.lock().ok()?;
-        if done.is_empty() { None } else { Some(done.remove(0)) }
+        self.done.take()
     }
 }
 

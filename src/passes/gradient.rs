@@ -3,7 +3,7 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] = &[Feature::BlinnPhong, Feature::HistoryRatio];
+const FEATURES: &[Feature] = &[Feature::BlinnPhong, Feature::Pairs, Feature::HistoryRatio, Feature::SignedGradient];
 
 /// What Blinn–Phong shading reads of the scene.
 const SURFACE: &[Feature] = &[Feature::Instanced, Feature::Textures, Feature::ShadingNormals, Feature::Specular];
@@ -25,8 +25,9 @@ pub(crate) fn step(features: Features, pairs: u8) -> Step {
         ],
     );
     if !features.has(Feature::BlinnPhong) {
-        bindings.push(("radiance", Slot::Now(Image::Radiance)));
-        bindings.push(("radiance_previous", Slot::Before(Image::Radiance)));
+        let [now, before] = super::gradient_pairs::sources(features);
+        bindings.push(("radiance", now));
+        bindings.push(("radiance_previous", before));
     }
     Step { pass: Pass::Gradient, features, grid: Grid::Strata, iteration: 0, bindings }
 }

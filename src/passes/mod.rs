@@ -9,6 +9,10 @@ pub(crate) mod gradient_filter;
 pub(crate) mod gradient_pairs;
 pub(crate) mod gradient_pairs_filter;
 pub(crate) mod gradient_sample;
+pub(crate) mod ingest_pairs;
+pub(crate) mod ingest_radiance;
+pub(crate) mod ingest_surface;
+pub(crate) mod reshade;
 pub(crate) mod resolve;
 pub(crate) mod temporal;
 #[cfg(feature = "path-tracer")]
@@ -27,12 +31,20 @@ pub enum Pass {
     /// Primary rays: triangle, normal, depth and motion of each pixel.
     #[cfg(feature = "path-tracer")]
     Visibility,
+    /// A host's depth, normals and motion.
+    IngestSurface,
     /// Choice of the gradient's sample in each stratum.
     GradientSample,
+    /// What a host needs to repeat the path of that sample.
+    Reshade,
     /// Paths: demodulated radiance, albedo, emission.
     #[cfg(feature = "path-tracer")]
     Trace,
-    /// Radiances of the repeated paths, now and before.
+    /// A host's radiance, demodulated.
+    IngestRadiance,
+    /// A host's pairs for the gradient.
+    IngestPairs,
+    /// Radiances of the gradient's paths, now and before.
     GradientPairs,
     /// Their filter.
     GradientPairsFilter,
@@ -58,9 +70,13 @@ impl Pass {
         match self {
             #[cfg(feature = "path-tracer")]
             Self::Visibility => "visibility",
+            Self::IngestSurface => "ingest_surface",
             Self::GradientSample => "gradient_sample",
+            Self::Reshade => "reshade",
             #[cfg(feature = "path-tracer")]
             Self::Trace => "trace",
+            Self::IngestRadiance => "ingest_radiance",
+            Self::IngestPairs => "ingest_pairs",
             Self::GradientPairs => "gradient_pairs",
             Self::GradientPairsFilter => "gradient_pairs_filter",
             Self::Gradient => "gradient",
@@ -73,13 +89,25 @@ impl Pass {
         }
     }
 
+    /// Whether it follows rays through a scene.
+    pub(crate) fn traces(self) -> bool {
+        #[cfg(feature = "path-tracer")]
+        return matches!(self, Self::Visibility | Self::Trace);
+        #[cfg(not(feature = "path-tracer"))]
+        false
+    }
+
     pub(crate) fn source(self) -> &'static str {
         match self {
             #[cfg(feature = "path-tracer")]
             Self::Visibility => include_str!("../../shaders/visibility.wgsl"),
+            Self::IngestSurface => include_str!("../../shaders/ingest_surface.wgsl"),
             Self::GradientSample => include_str!("../../shaders/gradient_sample.wgsl"),
+            Self::Reshade => include_str!("../../shaders/reshade.wgsl"),
             #[cfg(feature = "path-tracer")]
             Self::Trace => include_str!("../../shaders/trace.wgsl"),
+            Self::IngestRadiance => include_str!("../../shaders/ingest_radiance.wgsl"),
+            Self::IngestPairs => include_str!("../../shaders/ingest_pairs.wgsl"),
             Self::GradientPairs => include_str!("../../shaders/gradient_pairs.wgsl"),
             Self::GradientPairsFilter => include_str!("../../shaders/gradient_pairs_filter.wgsl"),
             Self::Gradient => include_str!("../../shaders/gradient.wgsl"),

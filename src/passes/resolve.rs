@@ -3,7 +3,14 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] = &[Feature::Unfiltered, Feature::DirectEmission, Feature::Accumulate, Feature::TargetF16];
+const FEATURES: &[Feature] = &[
+    Feature::Unfiltered,
+    Feature::Background,
+    Feature::Albedo,
+    Feature::DirectEmission,
+    Feature::Accumulate,
+    Feature::TargetF16,
+];
 
 /// `color` is where the filtered colour is, if anything was filtered.
 pub(crate) fn step(features: Features, color: Option<Image>) -> Step {
@@ -11,7 +18,8 @@ pub(crate) fn step(features: Features, color: Option<Image>) -> Step {
     let mut bindings = bindings(
         features,
         [
-            ("albedo", Slot::Now(Image::Albedo), &[]),
+            ("radiance", Slot::Now(Image::Radiance), &[Feature::Background]),
+            ("albedo", Slot::Now(Image::Albedo), &[Feature::Albedo]),
             ("emission", Slot::Now(Image::Emission), &[Feature::DirectEmission]),
             ("sum_previous", Slot::Before(Image::Sum), &[Feature::Accumulate]),
             ("sum_out", Slot::Now(Image::Sum), &[Feature::Accumulate]),

@@ -25,9 +25,22 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
     if view == View::TriangleId && !has(Image::Visibility) {
         return missing("there is no visibility buffer");
     }
-    let mut features = plan.features.and(Features::of(&[Feature::DirectEmission, Feature::BlendByLambda]));
+    if view == View::Albedo && !plan.features.has(Feature::Albedo) {
+        return missing("the host gave no albedo");
+    }
+    if view == View::Rays && !plan.steps.iter().any(|s| s.pass.traces()) {
+        return missing("the host traced the rays");
+    }
+    let known = [Feature::Albedo, Feature::DirectEmission, Feature::Background, Feature::BlendByLambda];
+    let mut features = plan.features.and(Features::of(&known));
     if !matches!(view, View::Denoised | View::Noisy) {
         features = features.without(Feature::DirectEmission);
+    }
+    if view != View::Denoised {
+        features = features.without(Feature::Background);
+    }
+    if !matches!(view, View::Denoised | View::Noisy | View::Albedo) {
+        features = features.without(Feature::Albedo);
     }
     if view != View::Alpha {
         features = features.without(Feature::BlendByLambda);
@@ -42,7 +55,7 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         [
             ("color", color, &[]),
             ("radiance", Slot::Now(Image::Radiance), &[]),
-            ("albedo", Slot::Now(Image::Albedo), &[]),
+            ("albedo", Slot::Now(Image::Albedo), if view == View::Rays { &[] } else { &[Feature::Albedo] }),
             ("emission", Slot::Now(Image::Emission), &[Feature::DirectEmission]),
             ("guide", Slot::Now(Image::Guide), &[]),
             ("visibility", Slot::Now(Image::Visibility), &[]),
@@ -53,12 +66,14 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         ],
     );
     let names: &[&str] = match view {
+        View::Denoised if features.has(Feature::Background) => &["color", "radiance", "albedo", "emission"],
         View::Denoised => &["color", "albedo", "emission"],
         View::Noisy => &["radiance", "albedo", "emission"],
         View::Albedo | View::Rays => &["albedo"],
         View::Normal | View::Depth => &["guide"],
         View::TriangleId => &["visibility"],
         View::Motion => &["motion"],
+        View::MotionError => &["guide", "motion"],
         View::Gradient => &["gradient"],
         View::Lambda | View::Alpha | View::HistoryLength | View::Variance => &["history"],
         View::NonFinite => &["color"],

@@ -27,13 +27,14 @@ pub(super) struct Bench {
     pub index: u32,
     pub continued: bool,
     pub settings: Settings,
+    pub lambda_block: u32,
 }
 
 impl Bench {
     pub fn new(size: [u32; 2], settings: Settings) -> Self {
         let camera =
             Camera { eye: [0.2, 0.3, 4.0], target: [0.1, 0.0, 0.0], jitter: [0.2, -0.3], ..Default::default() };
-        Self { size, camera, previous: camera, index: 5, continued: true, settings }
+        Self { size, camera, previous: camera, index: 5, continued: true, settings, lambda_block: 1 }
     }
 
     pub fn grid(&self, grid: Grid) -> [u32; 2] {
@@ -57,7 +58,7 @@ impl Bench {
     fn run_once(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
         let gpu = gpu();
         let textures: BTreeMap<&str, Texture> =
-            step.bindings.iter().map(|&(name, slot)| (name, self.texture(step, slot))).collect();
+            step.bindings.iter().map(|&(name, slot)| (name, self.texture(step, name, slot))).collect();
         for (name, texels) in inputs {
             let texture = textures.get(name).unwrap_or_else(|| panic!("{:?} has no `{name}`", step.pass));
             write(texture, texels);
@@ -92,21 +93,42 @@ impl Bench {
             previous: camera(&self.previous),
             index: self.index,
             continued: self.continued,
+            lambda_block: self.lambda_block,
         };
         FrameUniform::new(self.size, &moment, &self.settings)
     }
 
-    fn texture(&self, step: &Step, slot: Slot) -> Texture {
-        let (format, grid) = match slot {
-            Slot::Now(image) | Slot::Before(image) => (image.format(), image.grid()),
-            Slot::Target if step.features.has(Feature::TargetF16) => (TextureFormat::Rgba16Float, Grid::Pixels),
-            Slot::Target => (TextureFormat::Rgba32Float, Grid::Pixels),
+    fn texture(&self, step: &Step, name: &str, slot: Slot) -> Texture {
+        let has = |feature| step.features.has(feature);
+        let (format, [width, height]) = match slot {
+            Slot::Now(image) | Slot::Before(image) => {
+                let [width, height] = self.grid(image.grid());
+                (image.format(), [image.texels() * width, height])
+            }
+            Slot::Target if has(Feature::TargetF16) => (TextureFormat::Rgba16Float, self.size),
+            Slot::Target => (TextureFormat::Rgba32Float, self.size),
+            // The widest that a host may hand in.
+            Slot::Host => match name {
+                "depth" | "previous_depth" => (TextureFormat::R32Float, self.size),
+                "external_lambda" => (TextureFormat::R32Float, self.size.map(|s| s.div_ceil(self.lambda_block))),
+                "instance" if !has(Feature::FloatObjects) => (TextureFormat::R32Uint, self.size),
+                "instance" => (TextureFormat::R32Float, self.size),
+                "normal" if has(Feature::PackedNormals) => (TextureFormat::R32Uint, self.size),
+                "normal" if has(Feature::OctahedralNormals) => (TextureFormat::Rg32Float, self.size),
+                "motion" => (TextureFormat::Rg32Float, self.size),
+                "current" | "previous" => {
+                    let luminance = has(Feature::LuminancePairs);
+                    let grid = if has(Feature::StratumPairs) { Grid::Strata } else { Grid::Pixels };
+                    (if luminance { TextureFormat::R32Float } else { TextureFormat::Rgba32Float }, self.grid(grid))
+                }
+                _ => (TextureFormat::Rgba32Float, self.size),
+            },
         };
         let usage = TextureUsages::STORAGE_BINDING
             | TextureUsages::TEXTURE_BINDING
             | TextureUsages::COPY_SRC
             | TextureUsages::COPY_DST;
-        gpu().texture(self.grid(grid), format, usage)
+        gpu().texture([width, height], format, usage)
     }
 }
 

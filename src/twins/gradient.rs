@@ -155,7 +155,8 @@ fn ratio(now: [f64; 4], before: [f64; 4], product: f64) -> ([f64; 4], f64, f64) 
 #[test]
 fn the_gradient_is_what_the_ratio_does_not_explain() {
     for size in SIZES {
-        for (gamma, with_ratio) in [(0.0, false), (0.5, false), (0.5, true), (1.0, true)] {
+        let kinds = [(0.0, false), (0.5, false), (0.5, true), (1.0, true)];
+        for ((gamma, with_ratio), signed) in kinds.into_iter().flat_map(|k| [(k, false), (k, true)]) {
             let filter = FilterSettings { gradient_gamma: gamma, ..Default::default() };
             let images = Images::new(size, Settings { filter, ..Settings::adaptive() }, 8);
             let mut random = Random(9);
@@ -187,7 +188,10 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 inputs.push(("before_filtered", texels(&|p| p.1)));
                 inputs.push(("product_filtered", texels(&|p| [p.2; 4])));
             }
-            let features = if with_ratio { Features::of(&[Feature::HistoryRatio]) } else { Features::default() };
+            let mut features = if with_ratio { Features::of(&[Feature::HistoryRatio]) } else { Features::default() };
+            if signed {
+                features = features.with(Feature::SignedGradient);
+            }
             let written = images.bench.run(&gradient::step(features, 0), &inputs);
             for (x, y) in images.bench.strata() {
                 let i = images.bench.stratum(x, y).unwrap();
@@ -214,7 +218,8 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 let before = before * if with_ratio { float(written["ratio_out"][i][3]) } else { 1.0 };
                 let larger = now.max(before);
                 let expected = if larger > 7.9e-31 {
-                    [(now - before).abs() * larger.powf(gamma_less_one(gamma)), larger.powf(gamma.into())]
+                    let difference = if signed { now - before } else { (now - before).abs() };
+                    [difference * larger.powf(gamma_less_one(gamma)), larger.powf(gamma.into())]
                 } else {
                     [0.0; 2]
                 };
@@ -230,6 +235,43 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
 
 fn gamma_less_one(gamma: f32) -> f64 {
     f64::from(gamma) - 1.0
+}
+
+#[test]
+fn a_hosts_pairs_go_the_same_way() {
+    for size in SIZES {
+        let images = Images::new(size, Settings::adaptive(), 12);
+        let strata = images.bench.strata();
+        // What a stratum's path brought, beside the stratum instead of in the images.
+        let [now, before] = [0, 1].map(|which| -> Vec<Texel> {
+            let texel = |&(x, y): &(i32, i32)| {
+                let (now, before) = images.pair(x, y)?;
+                let [a, b] = pack_rgb([now, before][which]);
+                Some([a, b, 0, 0])
+            };
+            strata.iter().map(|s| texel(s).unwrap_or_default()).collect()
+        });
+        let filtered = numbers(strata.len(), &mut Random(13));
+        let run = |pairs: bool| {
+            let (features, now, before) = if pairs {
+                (Features::of(&[Feature::Pairs]), &now, &before)
+            } else {
+                (Features::default(), &images.radiance, &images.before)
+            };
+            let mut inputs = vec![
+                ("samples", images.records.clone()),
+                ("radiance", now.clone()),
+                ("radiance_previous", before.clone()),
+            ];
+            let mut written = images.bench.run(&gradient_pairs::step(features), &inputs);
+            for name in ["now_filtered", "before_filtered", "product_filtered"] {
+                inputs.push((name, filtered.clone()));
+            }
+            written.append(&mut images.bench.run(&gradient::step(features.with(Feature::HistoryRatio), 0), &inputs));
+            written
+        };
+        assert_eq!(run(true), run(false), "{size:?}");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::passes::{self, Pass};
-use crate::plan::{Feature, Plan, Step, Traits, Traversal};
+use crate::plan::{Feature, HostTraits, Plan, Step, Traits, Traversal};
 use crate::scene::{GpuScene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use wgpu::{BackendOptions, Backends, Device, DeviceDescriptor, Instance, InstanceDescriptor, Queue, TextureFormat};
 
 /// Bound by name although no step lists them.
-const GIVEN: [&str; 5] = ["frame", "stride", "show", "analytic_lights", "analytic_lights_previous"];
+const GIVEN: [&str; 6] = ["frame", "stride", "show", "counts", "analytic_lights", "analytic_lights_previous"];
 
 /// wgpu's validation without any GPU.
 fn noop_device() -> (Device, Queue) {
@@ -54,12 +54,39 @@ fn product<A: Clone, B: Clone>(a: &[A], b: &[B]) -> Vec<(A, B)> {
 }
 
 const GRADIENTS: [Gradient; 3] = [Gradient::Reshade, Gradient::BlinnPhong, Gradient::Off];
+const HOST_GRADIENTS: [Gradient; 4] = [Gradient::Reshade, Gradient::Pairs, Gradient::Lambda, Gradient::Off];
 const SAMPLINGS: [Sampling; 3] = [Sampling::Both, Sampling::Lights, Sampling::Scattered];
 const MODES: [Mode; 3] = [Mode::Denoise, Mode::Noisy, Mode::Reference];
 const TARGETS: [TextureFormat; 2] = [TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
 
+/// All combinations of what a host may hand in.
+fn host_traits() -> Vec<HostTraits> {
+    (0_u32..1 << 11)
+        .flat_map(|bits| {
+            let bit = move |i: u32| bits >> i & 1 == 1;
+            // Direct, mapped, octahedral, both, packed.
+            (0..5).map(move |normal| HostTraits {
+                octahedral_normals: normal == 2 || normal == 3,
+                mapped_normals: normal == 1 || normal == 3,
+                packed_normals: normal == 4,
+                previous_depth: bit(0),
+                instances: bit(1),
+                float_instances: bit(1) && bit(2),
+                albedo: bit(3),
+                emission: bit(4),
+                demodulated: bit(5),
+                luminance_pairs: bit(6),
+                stratum_pairs: bit(7),
+                pairs_in_place: bit(8) && !bit(7),
+                confidence: bit(9),
+                diagnostics: bit(10),
+            })
+        })
+        .collect()
+}
+
 /// All filters that differ in what is compiled.
-fn filters() -> Vec<FilterSettings> {
+fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
     let switches = |bits: u32| {
         let on = |i: u32| bits >> i & 1 == 1;
         FilterSettings {
@@ -70,12 +97,13 @@ fn filters() -> Vec<FilterSettings> {
             stops: if on(4) { Stops::Classic } else { Stops::NoiseSubtracted },
             kernel: if on(5) { crate::Kernel::Full } else { crate::Kernel::Diamond },
             local_linear_fit: on(6),
+            gradient_signed: on(7),
             iterations: if on(8) { 5 } else { 0 },
             gradient_iterations: if on(9) { 3 } else { 0 },
             ..Default::default()
         }
     };
-    product(&GRADIENTS, &(0..1 << 10).collect::<Vec<_>>())
+    product(gradients, &(0..1 << 10).collect::<Vec<_>>())
         .into_iter()
         .map(|(gradient, bits)| FilterSettings { gradient, ..switches(bits) })
         .collect()
@@ -99,12 +127,35 @@ fn plans() -> Vec<(Plan, Mode)> {
             plans.push((plan, mode));
         }
     }
-    for (instanced, filter) in product(&[false, true], &filters()) {
+    for (instanced, filter) in product(&[false, true], &filters(&GRADIENTS)) {
         let settings = Settings { filter, ..Settings::adaptive() };
         let traits = Traits { instanced, ..Default::default() };
         let plan = Plan::path_traced(&traits, &settings, TextureFormat::Rgba32Float);
         plans.push((plan.clone().on_cpu(), Mode::Denoise));
         plans.push((plan, Mode::Denoise));
+    }
+    plans
+}
+
+/// The same for hosts' frames: taking them in depends on the traits and the gradient, filtering on the filter, on whether there
+/// are objects, and on what kind of pairs or λ there is.
+fn host_plans() -> Vec<(Plan, Mode)> {
+    let mut plans = Vec::new();
+    for (traits, gradient) in product(&host_traits(), &HOST_GRADIENTS) {
+        let settings = Settings { filter: FilterSettings { gradient, ..Default::default() }, ..Settings::adaptive() };
+        plans.push((Plan::hosted(&traits, &settings, TextureFormat::Rgba32Float), Mode::Denoise));
+    }
+    for ((albedo, emission), (mode, target)) in
+        product(&product(&[false, true], &[false, true]), &product(&MODES, &TARGETS))
+    {
+        let traits = HostTraits { albedo, emission, ..Default::default() };
+        let settings = Settings { mode, ..Settings::adaptive() };
+        plans.push((Plan::hosted(&traits, &settings, target), mode));
+    }
+    for (instances, (marked, filter)) in product(&[false, true], &product(&[false, true], &filters(&HOST_GRADIENTS))) {
+        let traits = HostTraits { instances, pairs_in_place: marked, confidence: marked, ..Default::default() };
+        let settings = Settings { filter, ..Settings::adaptive() };
+        plans.push((Plan::hosted(&traits, &settings, TextureFormat::Rgba32Float), Mode::Denoise));
     }
     plans
 }
@@ -122,7 +173,7 @@ fn steps() -> BTreeMap<Permutation, Step> {
         };
         steps.entry(Permutation { pass: step.pass, features: step.features, traversal, view }).or_insert(step);
     };
-    for (plan, mode) in plans() {
+    for (plan, mode) in plans().into_iter().chain(host_plans()) {
         for (view, format) in product(&View::ALL, &formats) {
             match passes::view::step(view, &plan, mode, format) {
                 Ok(step) => add(step),
@@ -162,7 +213,7 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
         *counts.entry(permutation.pass.name()).or_default() += 1;
     }
     println!("{counts:?}");
-    assert_eq!(counts.len(), 12, "a pass is never run: {counts:?}");
+    assert_eq!(counts.len(), 16, "a pass is never run: {counts:?}");
 }
 
 #[test]

@@ -34,7 +34,13 @@ fn check(features: &[Feature], bright: f64) {
                 let [a, b] = pack_rgb(radiance(r).map(|c| c * bright));
                 [a, b, 0, 0]
             };
-            let color = texels(&mut |r| if unfiltered { packed(r) } else { pack_tap(radiance(r), 1.0, [1, 1]) });
+            // Every fifth pixel sees nothing.
+            let color = texels(&mut |r| match r.below(5) {
+                _ if unfiltered => packed(r),
+                0 => [0; 4],
+                _ => pack_tap(radiance(r), 1.0, [1, 1]),
+            });
+            let sky = texels(&mut |r| packed(r));
             let albedo = texels(&mut |r| {
                 let [a, b, c] = [0; 3].map(|_| ALBEDOS[r.below(4)].0);
                 [a | b << 16, c, 0, 0]
@@ -42,8 +48,13 @@ fn check(features: &[Feature], bright: f64) {
             let emission = texels(&mut |r| packed(r));
             let before = texels(&mut |r| [0; 4].map(|_| word(10.0 * r.unit())));
             let step = resolve::step(features, (!unfiltered).then_some(Image::Color(0)));
-            let mut inputs =
-                vec![(if unfiltered { "radiance" } else { "color" }, color.clone()), ("albedo", albedo.clone())];
+            let mut inputs = vec![(if unfiltered { "radiance" } else { "color" }, color.clone())];
+            if features.has(Feature::Background) {
+                inputs.push(("radiance", sky.clone()));
+            }
+            if features.has(Feature::Albedo) {
+                inputs.push(("albedo", albedo.clone()));
+            }
             if features.has(Feature::DirectEmission) {
                 inputs.push(("emission", emission.clone()));
             }
@@ -52,9 +63,18 @@ fn check(features: &[Feature], bright: f64) {
             }
             let written = bench.run(&step, &inputs);
             for i in 0..count {
-                let reflected =
-                    if unfiltered { unpack_rgb([color[i][0], color[i][1]]) } else { unpack_tap(color[i]).0 };
-                let a = [albedo[i][0] & 0xffff, albedo[i][0] >> 16, albedo[i][1] & 0xffff].map(half);
+                let reflected = if unfiltered {
+                    unpack_rgb([color[i][0], color[i][1]])
+                } else if features.has(Feature::Background) && color[i][3] == 0 {
+                    unpack_rgb([sky[i][0], sky[i][1]])
+                } else {
+                    unpack_tap(color[i]).0
+                };
+                let a = if features.has(Feature::Albedo) {
+                    [albedo[i][0] & 0xffff, albedo[i][0] >> 16, albedo[i][1] & 0xffff].map(half)
+                } else {
+                    [1.0; 3]
+                };
                 let e = unpack_rgb([emission[i][0], emission[i][1]]);
                 for c in 0..3 {
                     let mut expected = reflected[c] * a[c];
@@ -82,17 +102,20 @@ fn check(features: &[Feature], bright: f64) {
 #[test]
 fn every_way_of_putting_it_together() {
     use Feature::*;
-    let sets: [&[Feature]; 6] = [
-        &[],
-        &[DirectEmission],
+    let sets: [&[Feature]; 9] = [
+        &[Albedo],
+        &[Albedo, DirectEmission],
+        &[Albedo, Unfiltered],
+        &[Albedo, Unfiltered, DirectEmission],
+        &[Albedo, DirectEmission, TargetF16],
+        &[Albedo, Unfiltered, Accumulate, DirectEmission],
+        &[Background],
+        &[Background, Albedo, DirectEmission],
         &[Unfiltered],
-        &[Unfiltered, DirectEmission],
-        &[DirectEmission, TargetF16],
-        &[Unfiltered, Accumulate, DirectEmission],
     ];
     for features in sets {
         check(features, 1.0);
     }
     // Brighter than f16 goes: the largest number that it holds, not infinity.
-    check(&[Unfiltered, DirectEmission, TargetF16], 1e20);
+    check(&[Albedo, Unfiltered, DirectEmission, TargetF16], 1e20);
 }

@@ -27,6 +27,7 @@ struct Given {
     samples: Vec<Texel>,
     gradient: Vec<Texel>,
     ratio: Vec<Texel>,
+    external: Vec<Texel>,
 }
 
 /// What the formulas make of a pixel.
@@ -67,7 +68,7 @@ fn pack_guide(g: &[u32; 2]) -> Texel {
 
 impl Given {
     fn new(size: [u32; 2], features: &[Feature], settings: Settings, moving: bool) -> Self {
-        let mut bench = Bench::new(size, settings);
+        let mut bench = Bench { lambda_block: if moving { 3 } else { 1 }, ..Bench::new(size, settings) };
         if moving {
             bench.previous.eye[0] += 0.05;
             bench.previous.jitter = [-0.4, 0.1];
@@ -98,6 +99,7 @@ impl Given {
         let object = each(&mut |r| [u32::from(r.unit() < 0.1); 4]).iter().map(|t| t[0]).collect();
         let object_before = each(&mut |r| [u32::from(r.unit() < 0.1); 4]).iter().map(|t| t[0]).collect();
         let samples = bench.records(&guide, &mut random);
+        let signed = bench.settings.filter.gradient_signed;
         let gradient = samples
             .iter()
             .map(|_| match random.below(5) {
@@ -105,7 +107,20 @@ impl Given {
                 0 => [0; 4],
                 1 => [0, word(0.7), 0, 0],
                 2 => [word(1.1), word(1.0), 0, 0],
+                // Below 0 where the differences have a sign.
+                3 if signed => [word(-0.6 * random.unit()), word(1.0), 0, 0],
                 _ => [word(0.6 * random.unit()), word(1.0), 0, 0],
+            })
+            .collect();
+        let [across, down] = size.map(|s| s.div_ceil(bench.lambda_block));
+        // λ, or what is no λ: none of these may come through.
+        let external = (0..across * down)
+            .map(|_| match random.below(8) {
+                0 => [f32::NAN.to_bits(); 4],
+                1 => [f32::INFINITY.to_bits(); 4],
+                2 => [word(-0.5); 4],
+                3 => [word(1.5); 4],
+                _ => [word(random.unit()); 4],
             })
             .collect();
         let ratio = samples.iter().map(|_| [0; 4].map(|_| word(random.between(0.25, 4.0)))).collect();
@@ -123,6 +138,7 @@ impl Given {
             samples,
             gradient,
             ratio,
+            external,
         }
     }
 
@@ -140,6 +156,7 @@ impl Given {
             ("samples", self.samples.clone()),
             ("gradient", self.gradient.clone()),
             ("ratio", self.ratio.clone()),
+            ("external_lambda", self.external.clone()),
         ];
         let used: Vec<_> =
             all.into_iter().filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|b| b.0 == *n)).collect();
@@ -256,7 +273,9 @@ impl Given {
             *unsure |= (weights / 1e-4 - 1.0).abs() < 0.1;
             // A quarter of what is around counts too, so that thin surfaces do not miss a change.
             let [numerator, denominator] = [0, 1].map(|c| gradient[c] + 0.25 * around[c]);
-            let lambda = if denominator > 0.0 { (numerator / denominator).clamp(0.0, 1.0) } else { 0.0 };
+            let dead_zone = f64::from(self.bench.settings.filter.gradient_dead_zone);
+            let lambda =
+                if denominator > 0.0 { (numerator.abs() / denominator - dead_zone).clamp(0.0, 1.0) } else { 0.0 };
             found = (if weights > 0.0 { ratio.map(|r| r / weights) } else { [1.0; 4] }, lambda);
             if weights > 1e-4 && gradient[1] > 0.0 {
                 break;
@@ -287,6 +306,14 @@ impl Given {
             }
             kept *= (1.0 - lambda).powf(f.history_power.into());
         }
+        if self.has(Feature::ExternalLambda) {
+            let block = self.bench.lambda_block as i32;
+            let across = self.bench.size[0].div_ceil(self.bench.lambda_block) as i32;
+            let value = float(self.external[(y / block * across + x / block) as usize][0]);
+            let lambda = if self.has(Feature::Confidence) { 1.0 - value } else { value };
+            out.lambda = if value.is_finite() { lambda.clamp(0.0, 1.0) } else { 0.0 };
+            kept *= (1.0 - out.lambda).powf(f.history_power.into());
+        }
         let least = f64::from(f.alpha);
         let mut alpha = if self.has(Feature::BlendByLambda) {
             let base = least.max(1.0 / (before.length + 1.0));
@@ -296,7 +323,7 @@ impl Given {
         };
         out.length = (kept + 1.0).min(f.max_history.into());
         let stratum = self.bench.stratum(x / 3, y / 3).unwrap();
-        if self.has(Feature::Reshade) && self.samples[stratum][0] as i32 == y % 3 * 3 + x % 3 + 1 {
+        if self.has(Feature::InPlace) && self.samples[stratum][0] as i32 == y % 3 * 3 + x % 3 + 1 {
             // What repeats a path is not new: it only fills in for what λ drops.
             alpha = out.lambda;
             out.length = kept.max(1.0);
@@ -403,8 +430,14 @@ fn every_reachable_kind_of_blending() {
     check(&[Objects, VarianceOfMean], &power(3.5));
     check(&[Feedback, VarianceOfMean], &power(3.5));
     check(&[Gradient, BlinnPhong, VarianceOfMean], &power(3.5));
-    check(&[Gradient, Reshade, VarianceOfMean, Objects], &power(1.0));
-    check(&[Gradient, Reshade, HistoryRatio, VarianceOfMean], &power(3.5));
-    check(&[Gradient, Reshade, BlendByLambda, Feedback], &power(2.0));
-    check(&[Gradient, Reshade, HistoryRatio, BlendByLambda, Feedback, VarianceOfMean, Objects], &power(0.0));
+    check(&[Gradient, InPlace, VarianceOfMean, Objects], &power(1.0));
+    check(&[Gradient, InPlace, HistoryRatio, VarianceOfMean], &power(3.5));
+    check(&[Gradient, InPlace, BlendByLambda, Feedback], &power(2.0));
+    check(&[Gradient, InPlace, HistoryRatio, BlendByLambda, Feedback, VarianceOfMean, Objects], &power(0.0));
+    // A host's.
+    check(&[ExternalLambda, VarianceOfMean], &power(3.5));
+    check(&[ExternalLambda, Confidence, BlendByLambda, Objects], &power(2.0));
+    let mut signed = power(3.5);
+    (signed.filter.gradient_signed, signed.filter.gradient_dead_zone) = (true, 0.1);
+    check(&[Gradient, VarianceOfMean], &signed);
 }

@@ -36,7 +36,7 @@ impl Stage {
     /// A stage on another device.
     pub fn on(gpu: &'static Gpu, scene: Scene, size: [u32; 2], settings: Settings) -> Self {
         let uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
-        let descriptor = DenoiserDescriptor { size, settings, timing: false };
+        let descriptor = DenoiserDescriptor { size, settings, ..Default::default() };
         let denoiser = Denoiser::new(&gpu.device, &gpu.queue, &descriptor).unwrap();
         let target = gpu.target(size, TextureFormat::Rgba32Float);
         Self { gpu, scene, uploaded, denoiser, target, index: 0, camera: None }

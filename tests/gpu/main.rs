@@ -7,3 +7,4 @@ mod common;
 
 mod behaviour;
 mod estimator;
+mod host;

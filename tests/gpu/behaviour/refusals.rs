@@ -103,7 +103,7 @@ fn a_setting_out_of_range() {
         assert!(matches!(error, Error::Setting { setting, .. } if setting == name), "{name}: {error}");
         assert_eq!(pair.tried.denoiser.settings(), &Settings::adaptive());
         pair.assert_unharmed(&error);
-        let descriptor = DenoiserDescriptor { size: SIZE, settings, timing: false };
+        let descriptor = DenoiserDescriptor { size: SIZE, settings, ..Default::default() };
         assert!(matches!(Denoiser::new(&gpu().device, &gpu().queue, &descriptor), Err(Error::Setting { .. })));
     }
 }

@@ -1,0 +1,97 @@
+// A host's depth, normals and motion as the filter's own images. What cannot be used is cleaned here, before it reaches history.
+
+#import asvgf::frame::{frame, inside, project, sample_point, world_position}
+#import asvgf::color::is_finite
+#import asvgf::packing::pack_normal
+#ifdef OCTAHEDRAL_NORMALS
+#import asvgf::packing::octahedral
+#endif
+#ifdef PACKED_NORMALS
+#import asvgf::packing::unpack_octahedral
+#endif
+#ifdef DIAGNOSTICS
+#import asvgf::counts::counts
+#endif
+
+@group(0) @binding(1) var depth: texture_2d<f32>;
+#ifdef PACKED_NORMALS
+@group(0) @binding(2) var normal: texture_2d<u32>;
+#else
+@group(0) @binding(2) var normal: texture_2d<f32>;
+#endif
+@group(0) @binding(3) var motion: texture_2d<f32>;
+#ifdef PREVIOUS_DEPTH
+@group(0) @binding(4) var previous_depth: texture_2d<f32>;
+#endif
+#ifdef OBJECTS
+#ifdef FLOAT_OBJECTS
+@group(0) @binding(5) var instance: texture_2d<f32>;
+#else
+@group(0) @binding(5) var instance: texture_2d<u32>;
+#endif
+@group(0) @binding(6) var object_out: texture_storage_2d<r32uint, write>;
+#endif
+// As visibility.wgsl writes them.
+@group(0) @binding(7) var guide_out: texture_storage_2d<rg32uint, write>;
+@group(0) @binding(8) var motion_out: texture_storage_2d<rgba32float, write>;
+
+// Where a point is put that had no place in the previous image: far outside.
+const NOWHERE: vec2<f32> = vec2(-1e9);
+
+fn normal_at(pixel: vec2<i32>) -> vec3<f32> {
+#ifdef PACKED_NORMALS
+    return unpack_octahedral(textureLoad(normal, pixel, 0).x);
+#else
+    var n = textureLoad(normal, pixel, 0).xyz;
+#ifdef MAPPED_NORMALS
+    n = 2.0 * n - 1.0;
+#endif
+#ifdef OCTAHEDRAL_NORMALS
+    n = select(vec3(0.0), octahedral(clamp(n.xy, vec2(-1.0), vec2(1.0))), is_finite(n.x) && is_finite(n.y));
+#endif
+    return n;
+#endif
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    if !inside(pixel) {
+        return;
+    }
+    let z = textureLoad(depth, pixel, 0).x;
+    let hit = is_finite(z) && z > 0.0;
+    let n = normal_at(pixel);
+    let squared = dot(n, n);
+    // Any length is taken but none: a renderer that clears its normals to zero means that there is no surface.
+    let oriented = is_finite(squared) && squared > 1e-12;
+    let m = textureLoad(motion, pixel, 0).xy;
+    var known = is_finite(m.x) && is_finite(m.y);
+    let point = sample_point(frame.camera, vec2<f32>(id.xy));
+#ifdef PREVIOUS_DEPTH
+    let before = textureLoad(previous_depth, pixel, 0).x;
+    known &= is_finite(before);
+#else
+    // A point that does not move in depth but by the camera's motion.
+    let before = project(frame.previous, world_position(frame.camera, point, z)).z;
+#endif
+    let seen = hit && oriented;
+    let placed = known && before > 0.0;
+    let unit = n * inverseSqrt(max(squared, 1e-12));
+    textureStore(guide_out, pixel, vec4(select(vec2(0u), vec2(pack_normal(unit), bitcast<u32>(z)), seen), 0u, 0u));
+    textureStore(motion_out, pixel, select(vec4(0.0), select(vec4(NOWHERE, 0.0, 0.0), vec4(m, before, 0.0), placed), vec4(seen)));
+#ifdef OBJECTS
+#ifdef FLOAT_OBJECTS
+    // Only told apart, never computed with.
+    let object = bitcast<u32>(textureLoad(instance, pixel, 0).x);
+#else
+    let object = textureLoad(instance, pixel, 0).x;
+#endif
+    textureStore(object_out, pixel, vec4(object));
+#endif
+#ifdef DIAGNOSTICS
+    if hit && !(oriented && known) {
+        atomicAdd(&counts.surfaces, 1u);
+    }
+#endif
+}

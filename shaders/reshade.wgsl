@@ -1,0 +1,40 @@
+// What a host needs to repeat one path of the last frame per stratum, in two texels side by side. shaders/host/reshade.wgsl, which
+// becomes part of the host's shader, reads them:
+//   place of the pixel that repeats, 1…9 (0: none) · last frame's pixel, x | y << 16 · that pixel's packed normal · its depth
+//   how far the surface has moved since, in world space
+
+#import asvgf::frame::{frame, sample_point, world_position}
+#import asvgf::strata::{previous_pixel, sample_pixel}
+
+@group(0) @binding(1) var samples: texture_2d<u32>;
+@group(0) @binding(2) var guide_previous: texture_2d<u32>;
+@group(0) @binding(3) var motion: texture_2d<f32>;
+@group(0) @binding(4) var repeats_out: texture_storage_2d<rgba32uint, write>;
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if any(id.xy >= frame.strata) {
+        return;
+    }
+    let stratum = vec2<i32>(id.xy);
+    let record = textureLoad(samples, stratum, 0);
+    var which = vec4(0u);
+    var shift = vec3(0.0);
+    if record.x != 0u {
+        let pixel = sample_pixel(record, stratum);
+        let depth = bitcast<f32>(record.w);
+        let point = sample_point(frame.camera, vec2<f32>(pixel));
+        let m = textureLoad(motion, pixel, 0).xyz;
+        // The pixel's own surface tells how far its neighbour's has moved: exactly where it is shifted, and to a part of a pixel's
+        // width where it turns.
+        let now = world_position(frame.camera, point, depth);
+        let moved = now - world_position(frame.previous, point + m.xy, m.z);
+        // Less is the rounding of the host's motion: a surface at rest shall be shaded at the same point to the last bit, so
+        // that its gradient is exactly 0. 10⁻⁵ of the depth is a hundredth of a pixel.
+        shift = select(vec3(0.0), moved, dot(moved, moved) > 1e-10 * depth * depth);
+        which = vec4(record.xy, textureLoad(guide_previous, previous_pixel(record), 0).xy);
+    }
+    let texel = vec2(2 * stratum.x, stratum.y);
+    textureStore(repeats_out, texel, which);
+    textureStore(repeats_out, texel + vec2(1, 0), vec4(bitcast<vec3<u32>>(shift), 0u));
+}

@@ -1,0 +1,50 @@
+//! Counts of input that had to be cleaned.
+
+use super::readback::Mailbox;
+use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device};
+
+/// How many pixels of a host's frame had to be cleaned before they could reach the history. All zero is as it should be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct InputCounts {
+    /// `Surfaces::index`.
+    pub frame: u32,
+    /// Pixels with a positive, finite depth whose normal is zero or not finite (taken for a miss), or whose motion or previous
+    /// depth is not finite (taken for new).
+    pub surfaces: u32,
+    /// Pixels with a channel of radiance, albedo or emission that is infinite or not a number; that channel became 0.
+    pub non_finite: u32,
+    /// Pixels with a negative channel there; it became 0.
+    pub negative: u32,
+    /// Strata with a pair that is infinite or not a number; it was left out.
+    pub pairs: u32,
+}
+
+/// Bytes of `Counts` in counts.wgsl.
+const SIZE: u64 = 16;
+
+#[derive(Debug, Default)]
+pub(crate) struct Counters(Mailbox<InputCounts>);
+
+impl Counters {
+    /// Counters of one frame, at zero as WebGPU has every new buffer.
+    pub fn begin(device: &Device) -> Buffer {
+        device.create_buffer(&BufferDescriptor {
+            label: Some("asvgf counts"),
+            size: SIZE,
+            usage: BufferUsages::STORAGE | BufferUsages::COPY_SRC,
+            mapped_at_creation: false,
+        })
+    }
+
+    pub fn end(&self, device: &Device, encoder: &mut CommandEncoder, counts: &Buffer, frame: u32) {
+        self.0.fetch(device, encoder, counts, "asvgf counts readback", move |bytes| {
+            let word = |i: usize| bytemuck::pod_read_unaligned(&bytes[4 * i..4 * i + 4]);
+            InputCounts { frame, surfaces: word(0), non_finite: word(1), negative: word(2), pairs: word(3) }
+        });
+    }
+
+    pub fn take(&self) -> Option<InputCounts> {
+        self.0.take()
+    }
+}

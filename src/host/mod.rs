@@ -1,0 +1,122 @@
+//! Frames of a host's own renderer: what it hands in, and what it is handed.
+
+mod record;
+mod views;
+
+pub(crate) use record::Begun;
+pub(crate) use views::shape;
+
+use crate::Viewpoint;
+use wgpu::{Buffer, TextureView};
+
+/// What a host's frame shows, before any light: the G-buffer.
+///
+/// All views are of the denoiser's size and have `TEXTURE_BINDING` usage. What is absent is left out of the shaders. Nothing is
+/// read before the host submits the encoder.
+#[derive(Clone, Copy, Debug)]
+pub struct Surfaces<'a> {
+    /// From where, in this frame.
+    pub camera: Viewpoint,
+    /// Number of the frame. With the pixel it should decide all random numbers. It should grow by one per frame: any other step
+    /// starts a new history, as motion leads to the frame before.
+    pub index: u32,
+    /// Distance from the eye along the view axis, in the world's unit (not the hardware's depth, not the ray's length): first
+    /// channel of `r32float`, `r16float`, `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. 0, negative, infinite and NaN
+    /// mean that nothing was hit.
+    pub depth: &'a TextureView,
+    /// World-space normal on the seen side: of any length in `rgba16float`, `rgba32float` or `rgba8snorm`; mapped to 0…1 in
+    /// `rgba8unorm` or `rgb10a2unorm`; on the unfolded octahedron as −1…1 in `rg16float`, `rg32float`, `rg8snorm` or `rg16snorm`, as
+    /// 0…1 in `rg8unorm` or `rg16unorm`, and as two 16-bit 0…1 numbers (x in the low half) in `r32uint`. Zero means that nothing
+    /// was hit. It is kept to 10 bits a component.
+    pub normal: &'a TextureView,
+    /// Where the surface point was in the previous frame's image less where it is, in pixels, x right, y down, without either
+    /// frame's jitter: first two channels of `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. NaN or infinite: it was
+    /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether it is right.
+    pub motion: &'a TextureView,
+    /// The linear depth that the surface point had in the previous frame's camera, in the formats of `depth`. Without it points are
+    /// taken as not moving in depth, which holds for all that only the camera moves.
+    pub previous_depth: Option<&'a TextureView>,
+    /// Number of the object: two that touch are not mixed in time. First channel of `r8uint`, `r16uint`, `r32uint`, `rg32uint`,
+    /// `rgba32uint`, `r16float` or `r32float`, …; only told apart, so any distinct numbers will do.
+    pub instance: Option<&'a TextureView>,
+}
+
+/// The light of a host's frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Shading<'a> {
+    /// Noisy linear radiance, Rec. 709, ≥ 0: `rgba16float`, `rgba32float`, `rg11b10ufloat` or `rgb9e5ufloat`. Where nothing was
+    /// hit it is shown as it is. It may be the target too.
+    pub radiance: &'a TextureView,
+    /// Linear reflectance at the visible surface, 0…1: `rgba8unorm` and `bgra8unorm` (`-srgb` too), `rgb10a2unorm`, and the formats
+    /// of `radiance`. Radiance is divided by it before filtering (at least by 10⁻³) and the result multiplied, so that textures stay
+    /// sharp. Where it is absent, radiance is filtered with its textures.
+    pub albedo: Option<&'a TextureView>,
+    /// Linear radiance that the visible surface or the sky emits towards the eye, in the formats of `radiance`. It bypasses the
+    /// filter: emitters stay sharp, and blink without resetting what is around them.
+    pub emission: Option<&'a TextureView>,
+    /// Whether `radiance` is the light alone: without `emission`, not yet multiplied by `albedo`. Otherwise it is the full image.
+    pub demodulated: bool,
+    /// For [`Gradient::Pairs`](crate::Gradient::Pairs).
+    pub pairs: Option<Pairs<'a>>,
+    /// For [`Gradient::Lambda`](crate::Gradient::Lambda).
+    pub lambda: Option<Lambda<'a>>,
+    /// Where linear radiance goes: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
+    pub target: &'a TextureView,
+}
+
+impl<'a> Shading<'a> {
+    /// Radiance alone, with its emission and textures.
+    pub fn new(radiance: &'a TextureView, target: &'a TextureView) -> Self {
+        Self { radiance, albedo: None, emission: None, demodulated: false, pairs: None, lambda: None, target }
+    }
+}
+
+/// What some surface samples of the last frame reflected then, and the same paths now: the gradient's measurements.
+///
+/// A host takes a sample of last frame, finds where it is in this frame's image, and shades it again: the same point, view
+/// direction and random numbers, in this frame's scene. Both values are of the same kind as [`Shading::radiance`] but without
+/// emission: reflected light, multiplied by the albedo unless that is `demodulated`.
+#[derive(Clone, Copy, Debug)]
+pub struct Pairs<'a> {
+    /// Radiance now: `rgba16float` or `rgba32float`; or its luminance: `r16float` or `r32float`. Of the denoiser's size, each value
+    /// in the pixel where the sample is now, at most one in each 3×3 block (the first of several counts), and −1 elsewhere; or one
+    /// texel for each block, ⌈width/3⌉ × ⌈height/3⌉, meant for the block's centre.
+    pub current: &'a TextureView,
+    /// Radiance then, of the same size and with as many channels.
+    pub previous: &'a TextureView,
+    /// Whether `radiance` holds the same paths in these pixels, instead of paths of their own: they are then not counted as new
+    /// samples. Full size only.
+    pub in_place: bool,
+}
+
+/// How much of each pixel's history the host wants dropped.
+#[derive(Clone, Copy, Debug)]
+pub struct Lambda<'a> {
+    /// First channel of `r8unorm`, `r16float`, `r32float`, `rg…`, `rgba8unorm`, `rgba16float` or `rgba32float`, 0…1: 0 keeps all, 1
+    /// drops all. ⌈width/block⌉ × ⌈height/block⌉ texels.
+    pub view: &'a TextureView,
+    /// Pixels of each direction that share a texel, 1…32768.
+    pub block: u32,
+    /// Whether the view holds the confidence in the history, 1 − λ.
+    pub confidence: bool,
+}
+
+/// What a host needs to repeat one of last frame's paths in each 3×3 pixels, for
+/// [`Gradient::Reshade`](crate::Gradient::Reshade).
+///
+/// Put [`RESHADE_WGSL`](crate::RESHADE_WGSL) before the shader that starts the paths, bind these three, and shade what
+/// `asvgf_surface` returns, seeded as it says. Nothing else is asked: the pixels that repeat a path are ordinary ones. Nothing
+/// repeats in a first frame or after a restart.
+#[derive(Clone, Debug)]
+pub struct Reshade {
+    /// The frame's constants: a uniform buffer, `AsvgfFrame`.
+    pub frame: Buffer,
+    /// What each pixel sees: `rg32uint`, normal (three signed 10-bit numbers) and linear depth (f32 bits), 0 where nothing was hit.
+    /// Paths start from these, so that one that is repeated starts from just the same point. Valid as long as `repeats`.
+    pub guide: TextureView,
+    /// One pair of `rgba32uint` texels for each stratum of 3×3 pixels, 2·⌈width/3⌉ × ⌈height/3⌉: place of the pixel that repeats a
+    /// path (1…9 row by row, 0 for none), the last frame's pixel whose path it is (x | y << 16), that pixel's packed normal and its
+    /// linear depth (f32 bits); then how far its surface has moved since (world space, f32 bits). Valid until the denoiser's next
+    /// frame but one.
+    pub repeats: TextureView,
+}

@@ -1,0 +1,203 @@
+//! A host's frame in two calls: surfaces, then light.
+
+use super::{Lambda, Reshade, Shading, Surfaces, views};
+use crate::Error;
+use crate::denoiser::{Denoiser, LastFrame, Resources, Source};
+use crate::gpu::counts::Counters;
+use crate::gpu::frame::Moment;
+use crate::gpu::timing::FrameQueries;
+use crate::passes::Pass;
+use crate::plan::{Feature, HostTraits, Image, Plan, Traversal};
+use crate::settings::{Gradient, Mode};
+use wgpu::{BindingResource, Buffer, CommandEncoder, Device, TextureFormat};
+
+/// A frame between its two calls.
+#[derive(Debug)]
+pub(crate) struct Begun {
+    moment: Moment,
+    uniform: Buffer,
+    traits: HostTraits,
+    counts: Option<Buffer>,
+    queries: Option<FrameQueries>,
+}
+
+/// A host's views by the names of their bindings.
+impl<'a> Surfaces<'a> {
+    fn resource(&self, name: &str) -> Option<BindingResource<'a>> {
+        let view = match name {
+            "depth" => Some(self.depth),
+            "normal" => Some(self.normal),
+            "motion" => Some(self.motion),
+            "previous_depth" => self.previous_depth,
+            "instance" => self.instance,
+            _ => None,
+        };
+        view.map(BindingResource::TextureView)
+    }
+}
+
+impl<'a> Shading<'a> {
+    fn resource(&self, name: &str) -> Option<BindingResource<'a>> {
+        let view = match name {
+            "radiance" => Some(self.radiance),
+            "albedo" => self.albedo,
+            "emission" => self.emission,
+            "current" => self.pairs.map(|p| p.current),
+            "previous" => self.pairs.map(|p| p.previous),
+            "external_lambda" => self.lambda.map(|l| l.view),
+            _ => None,
+        };
+        view.map(BindingResource::TextureView)
+    }
+}
+
+impl Denoiser {
+    /// Records the first half of a host's frame: takes its surfaces, and with [`Gradient::Reshade`] says which of last frame's paths
+    /// to repeat (`None` with the other gradients). Then trace, in the same encoder or a later one, and call
+    /// [`Denoiser::denoise`]. Calling it again before that begins the same frame anew.
+    ///
+    /// # Errors
+    /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
+    pub fn begin_frame(
+        &mut self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        surfaces: &Surfaces<'_>,
+    ) -> Result<Option<Reshade>, Error> {
+        self.begin_frame_stepwise(device, encoder, surfaces, |_, _| {})
+    }
+
+    /// As [`Denoiser::begin_frame`], and calls the host after each pass, see [`Denoiser::denoise_stepwise`].
+    ///
+    /// # Errors
+    /// As [`Denoiser::begin_frame`].
+    pub fn begin_frame_stepwise(
+        &mut self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        surfaces: &Surfaces<'_>,
+        mut after: impl FnMut(Pass, &mut CommandEncoder),
+    ) -> Result<Option<Reshade>, Error> {
+        if self.settings.mode == Mode::Denoise && self.settings.filter.gradient == Gradient::BlinnPhong {
+            let reason = "needs a scene: choose Reshade, Pairs, Lambda or Off for your own renderer's frames";
+            return Err(Error::GradientSource { asked: Gradient::BlinnPhong, reason });
+        }
+        let camera = surfaces.camera.uniform(self.size)?;
+        let mut traits = HostTraits { diagnostics: self.counters.is_some(), ..Default::default() };
+        views::surfaces(&mut traits, surfaces, self.size)?;
+        // What the light's views will have changes neither this half nor which of its images outlive the frame.
+        let plan = self.adapt(Plan::hosted(&traits, &self.settings, TextureFormat::Rgba32Float));
+        let steps = &plan.steps[..plan.surface_steps()];
+        self.compile(device, steps, Traversal::default())?;
+        self.abandon();
+        if self.textures.grow(device, self.size, &plan) {
+            self.history = false;
+        }
+        let index = surfaces.index;
+        let last = self.last.as_ref().filter(|l| {
+            // Motion leads to the frame before, and a mean over frames is only one of frames that are alike.
+            self.history
+                && l.source == Source::Host
+                && l.index.wrapping_add(1) == index
+                && (self.settings.mode != Mode::Reference || l.camera == camera)
+        });
+        let previous = last.map_or(camera, |l| l.camera);
+        let moment = Moment { camera, previous, index, continued: last.is_some(), lambda_block: 1 };
+        let uniform = self.frame_uniform(device, &moment);
+        let counts = self.counters.as_ref().map(|_| Counters::begin(device));
+        let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
+        self.parity ^= 1;
+        let host = |name: &str| surfaces.resource(name);
+        let resources = Resources {
+            given: &host,
+            traversal: Traversal::default(),
+            uniform: &uniform,
+            target: None,
+            counts: counts.as_ref(),
+            show: None,
+        };
+        self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
+        let image = |image| self.textures.now(image, self.parity).cloned();
+        let reshade = match (image(Image::Guide), image(Image::Repeats)) {
+            (Some(guide), Some(repeats)) if plan.features.has(Feature::Reshade) => {
+                Some(Reshade { frame: uniform.clone(), guide, repeats })
+            }
+            _ => None,
+        };
+        self.begun = Some(Begun { moment, uniform, traits, counts, queries });
+        Ok(reshade)
+    }
+
+    /// Records the second half of a host's frame: takes the light, filters, and writes linear radiance into the target.
+    ///
+    /// # Errors
+    /// Names the view or setting that is wrong, [`Error::NotBegun`] without a [`Denoiser::begin_frame`]; nothing is recorded then,
+    /// the history stays, and it may be called again.
+    pub fn denoise(
+        &mut self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        shading: &Shading<'_>,
+    ) -> Result<(), Error> {
+        self.denoise_stepwise(device, encoder, shading, |_, _| {})
+    }
+
+    /// As [`Denoiser::denoise`], and calls the host after each pass has been recorded: it may put another encoder in the place of
+    /// this one and submit what was recorded so far. That is how to time passes on an adapter without (honest) timestamps.
+    ///
+    /// # Errors
+    /// As [`Denoiser::denoise`].
+    pub fn denoise_stepwise(
+        &mut self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        shading: &Shading<'_>,
+        mut after: impl FnMut(Pass, &mut CommandEncoder),
+    ) -> Result<(), Error> {
+        let begun = self.begun.as_ref().ok_or(Error::NotBegun)?;
+        let format = self.check_target(shading.target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
+        let mut traits = begun.traits;
+        views::shading(&mut traits, shading, self.size, &self.settings)?;
+        let plan = self.adapt(Plan::hosted(&traits, &self.settings, format));
+        let steps = &plan.steps[plan.surface_steps()..];
+        self.compile(device, steps, Traversal::default())?;
+        let Some(Begun { mut moment, mut uniform, counts, mut queries, .. }) = self.begun.take() else {
+            return Err(Error::NotBegun);
+        };
+        let lost = self.textures.fit(device, self.size, &plan);
+        let block = shading.lambda.as_ref().map_or(1, |l: &Lambda<'_>| l.block);
+        if (lost && moment.continued) || block != 1 {
+            // An image of the last frame that is new now (an albedo, say) has nothing to compare with.
+            moment.continued &= !lost;
+            moment.lambda_block = block;
+            uniform = self.frame_uniform(device, &moment);
+        }
+        let host = |name: &str| shading.resource(name);
+        let resources = Resources {
+            given: &host,
+            traversal: Traversal::default(),
+            uniform: &uniform,
+            target: Some(shading.target),
+            counts: counts.as_ref(),
+            show: None,
+        };
+        self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
+        if let (Some(timing), Some(queries)) = (&self.timing, queries) {
+            timing.end(device, encoder, queries);
+        }
+        if let (Some(counters), Some(counts)) = (&self.counters, &counts) {
+            counters.end(device, encoder, counts, moment.index);
+        }
+        self.history = true;
+        let Moment { camera, index, .. } = moment;
+        self.last = Some(LastFrame { plan, uniform, camera, source: Source::Host, index });
+        Ok(())
+    }
+
+    /// Forgets a frame that was begun and not denoised: its images are the next frame's to write.
+    pub(crate) fn abandon(&mut self) {
+        if self.begun.take().is_some() {
+            self.parity ^= 1;
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Checks of the host's views at the door, and what they mean for the shaders.
+
+use super::{Lambda, Pairs, Shading, Surfaces};
+use crate::Error;
+use crate::gpu::textures::strata;
+use crate::plan::HostTraits;
+use crate::settings::{Gradient, Mode, Settings};
+use wgpu::TextureFormat::{self, *};
+use wgpu::{TextureDimension, TextureUsages, TextureView};
+
+const DEPTH: &[TextureFormat] = &[R32Float, R16Float, Rg16Float, Rg32Float, Rgba16Float, Rgba32Float];
+const DEPTH_WORDS: &str =
+    "r32float, r16float, rg16float, rg32float, rgba16float or rgba32float (linear depth in the first channel)";
+
+const DIRECT_NORMAL: &[TextureFormat] = &[Rgba16Float, Rgba32Float, Rgba8Snorm];
+const MAPPED_NORMAL: &[TextureFormat] = &[Rgba8Unorm, Rgb10a2Unorm];
+const OCTAHEDRAL_NORMAL: &[TextureFormat] = &[Rg16Float, Rg32Float, Rg8Snorm, Rg16Snorm];
+const MAPPED_OCTAHEDRAL_NORMAL: &[TextureFormat] = &[Rg8Unorm, Rg16Unorm];
+const NORMAL_WORDS: &str = "rgba16float, rgba32float or rgba8snorm (xyz), rgba8unorm or rgb10a2unorm (xyz mapped to 0…1), rg16float, \
+    rg32float, rg8snorm, rg16snorm, rg8unorm or rg16unorm (octahedral), or r32uint (octahedral, 2×16 bits)";
+
+const MOTION: &[TextureFormat] = &[Rg16Float, Rg32Float, Rgba16Float, Rgba32Float];
+const MOTION_WORDS: &str = "rg16float, rg32float, rgba16float or rgba32float (pixels, previous − current)";
+
+const UINT_INSTANCE: &[TextureFormat] =
+    &[R8Uint, R16Uint, R32Uint, Rg8Uint, Rg16Uint, Rg32Uint, Rgba8Uint, Rgba16Uint, Rgba32Uint];
+const FLOAT_INSTANCE: &[TextureFormat] = &[R16Float, R32Float, Rg16Float, Rg32Float, Rgba16Float, Rgba32Float];
+const INSTANCE_WORDS: &str =
+    "r32uint, r16uint, r8uint, r32float or r16float, or more channels of these (a number in the first)";
+
+const RADIANCE: &[TextureFormat] = &[Rgba16Float, Rgba32Float, Rg11b10Ufloat, Rgb9e5Ufloat];
+const RADIANCE_WORDS: &str = "rgba16float, rgba32float, rg11b10ufloat or rgb9e5ufloat";
+
+const ALBEDO: &[TextureFormat] = &[
+    Rgba8Unorm,
+    Rgba8UnormSrgb,
+    Bgra8Unorm,
+    Bgra8UnormSrgb,
+    Rgb10a2Unorm,
+    Rgba16Float,
+    Rgba32Float,
+    Rg11b10Ufloat,
+    Rgb9e5Ufloat,
+];
+const ALBEDO_WORDS: &str = "rgba8unorm, bgra8unorm (-srgb too), rgb10a2unorm, rgba16float, rgba32float, rg11b10ufloat or \
+    rgb9e5ufloat";
+
+const PAIR: &[TextureFormat] = &[Rgba16Float, Rgba32Float];
+const LUMINANCE_PAIR: &[TextureFormat] = &[R16Float, R32Float];
+const PAIR_WORDS: &str = "rgba16float or rgba32float (radiance), or r16float or r32float (luminance)";
+
+const LAMBDA: &[TextureFormat] =
+    &[R8Unorm, R16Float, R32Float, Rg8Unorm, Rg16Float, Rg32Float, Rgba8Unorm, Rgba16Float, Rgba32Float];
+const LAMBDA_WORDS: &str = "r8unorm, r16float or r32float, or more channels of these (λ in the first)";
+
+/// Checks a view that is read, and returns its format.
+fn read(
+    name: &'static str,
+    view: &TextureView,
+    size: [u32; 2],
+    formats: &[&[TextureFormat]],
+    accepted: &'static str,
+) -> Result<TextureFormat, Error> {
+    let texture = view.texture();
+    let format = texture.format();
+    if !formats.iter().any(|list| list.contains(&format)) {
+        return Err(Error::ViewFormat { view: name, format, accepted });
+    }
+    shape(name, view)?;
+    let found = [texture.width(), texture.height()];
+    if found != size {
+        return Err(Error::ViewSize { view: name, found, expected: size });
+    }
+    let missing = TextureUsages::TEXTURE_BINDING - texture.usage();
+    if !missing.is_empty() {
+        return Err(Error::ViewUsage { view: name, missing });
+    }
+    Ok(format)
+}
+
+/// Checks that a view is of a plain image.
+pub(crate) fn shape(view: &'static str, of: &TextureView) -> Result<(), Error> {
+    let texture = of.texture();
+    if texture.dimension() != TextureDimension::D2 || texture.depth_or_array_layers() != 1 {
+        return Err(Error::ViewShape { view, found: "not one image" });
+    }
+    if texture.sample_count() != 1 {
+        return Err(Error::ViewShape { view, found: "multisampled" });
+    }
+    Ok(())
+}
+
+/// What the G-buffer's views mean for the shaders.
+pub(super) fn surfaces(traits: &mut HostTraits, given: &Surfaces<'_>, size: [u32; 2]) -> Result<(), Error> {
+    read("depth", given.depth, size, &[DEPTH], DEPTH_WORDS)?;
+    let lists = [DIRECT_NORMAL, MAPPED_NORMAL, OCTAHEDRAL_NORMAL, MAPPED_OCTAHEDRAL_NORMAL, &[R32Uint]];
+    let normal = read("normal", given.normal, size, &lists, NORMAL_WORDS)?;
+    traits.packed_normals = normal == R32Uint;
+    traits.mapped_normals = MAPPED_NORMAL.contains(&normal) || MAPPED_OCTAHEDRAL_NORMAL.contains(&normal);
+    traits.octahedral_normals = OCTAHEDRAL_NORMAL.contains(&normal) || MAPPED_OCTAHEDRAL_NORMAL.contains(&normal);
+    read("motion", given.motion, size, &[MOTION], MOTION_WORDS)?;
+    if let Some(view) = given.previous_depth {
+        read("previous_depth", view, size, &[DEPTH], DEPTH_WORDS)?;
+    }
+    traits.previous_depth = given.previous_depth.is_some();
+    if let Some(view) = given.instance {
+        let format = read("instance", view, size, &[UINT_INSTANCE, FLOAT_INSTANCE], INSTANCE_WORDS)?;
+        traits.float_instances = FLOAT_INSTANCE.contains(&format);
+    }
+    traits.instances = given.instance.is_some();
+    Ok(())
+}
+
+/// What the light's views mean for the shaders.
+pub(super) fn shading(
+    traits: &mut HostTraits,
+    given: &Shading<'_>,
+    size: [u32; 2],
+    settings: &Settings,
+) -> Result<(), Error> {
+    read("radiance", given.radiance, size, &[RADIANCE], RADIANCE_WORDS)?;
+    if let Some(view) = given.albedo {
+        read("albedo", view, size, &[ALBEDO], ALBEDO_WORDS)?;
+    }
+    if let Some(view) = given.emission {
+        read("emission", view, size, &[RADIANCE], RADIANCE_WORDS)?;
+    }
+    traits.albedo = given.albedo.is_some();
+    traits.emission = given.emission.is_some();
+    traits.demodulated = given.demodulated;
+    if settings.mode != Mode::Denoise {
+        return Ok(());
+    }
+    let missing = |view, setting, remedy| Error::ViewMissing { view, setting, remedy };
+    match settings.filter.gradient {
+        Gradient::Pairs => {
+            let none = missing("pairs", "Gradient::Pairs", "fill `Shading::pairs`, or choose Gradient::Reshade or Off");
+            pairs(traits, given.pairs.as_ref().ok_or(none)?, size)
+        }
+        Gradient::Lambda => {
+            let none = missing("lambda", "Gradient::Lambda", "fill `Shading::lambda`, or choose Gradient::Off");
+            lambda(traits, given.lambda.as_ref().ok_or(none)?, size)
+        }
+        Gradient::Reshade | Gradient::BlinnPhong | Gradient::Off => Ok(()),
+    }
+}
+
+fn pairs(traits: &mut HostTraits, given: &Pairs<'_>, size: [u32; 2]) -> Result<(), Error> {
+    let texture = given.current.texture();
+    let found = [texture.width(), texture.height()];
+    // A 1×1 image has one pixel and one stratum: it does not matter which is meant.
+    traits.stratum_pairs = found == strata(size) && !given.in_place;
+    traits.pairs_in_place = given.in_place;
+    let size = if traits.stratum_pairs { found } else { size };
+    let current = read("pairs.current", given.current, size, &[PAIR, LUMINANCE_PAIR], PAIR_WORDS)?;
+    traits.luminance_pairs = LUMINANCE_PAIR.contains(&current);
+    let (list, words) = if traits.luminance_pairs {
+        (LUMINANCE_PAIR, "r16float or r32float, as pairs.current holds luminances")
+    } else {
+        (PAIR, "rgba16float or rgba32float, as pairs.current holds radiances")
+    };
+    read("pairs.previous", given.previous, size, &[list], words)?;
+    Ok(())
+}
+
+fn lambda(traits: &mut HostTraits, given: &Lambda<'_>, size: [u32; 2]) -> Result<(), Error> {
+    if !(1..=32768).contains(&given.block) {
+        let value = given.block.into();
+        return Err(Error::Setting { setting: "Lambda::block", value, accepted: "1…32768 pixels" });
+    }
+    let size = size.map(|s| s.div_ceil(given.block));
+    read("lambda", given.view, size, &[LAMBDA], LAMBDA_WORDS)?;
+    traits.confidence = given.confidence;
+    Ok(())
+}

@@ -1,0 +1,36 @@
+//! A host's radiance, demodulated, see shaders/ingest_radiance.wgsl.
+
+use super::{Pass, bindings};
+use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+
+const FEATURES: &[Feature] = &[Feature::Albedo, Feature::DirectEmission, Feature::Modulated, Feature::Diagnostics];
+
+pub(crate) fn step(features: Features) -> Step {
+    use Feature::{Albedo, DirectEmission, Modulated, Reshade};
+    let mut known = Features::of(FEATURES);
+    // Which albedo a repeated path has matters only where it is divided by.
+    if features.has(Albedo) && features.has(Modulated) {
+        known = known.with(Reshade);
+    }
+    let features = features.and(known);
+    Step {
+        pass: Pass::IngestRadiance,
+        features,
+        grid: Grid::Pixels,
+        iteration: 0,
+        bindings: bindings(
+            features,
+            [
+                ("radiance", Slot::Host, &[]),
+                ("albedo", Slot::Host, &[Albedo]),
+                ("emission", Slot::Host, &[DirectEmission]),
+                ("guide", Slot::Now(Image::Guide), &[Albedo, Modulated]),
+                ("samples", Slot::Now(Image::Samples), &[Reshade]),
+                ("albedo_previous", Slot::Before(Image::Albedo), &[Reshade]),
+                ("radiance_out", Slot::Now(Image::Radiance), &[]),
+                ("albedo_out", Slot::Now(Image::Albedo), &[Albedo]),
+                ("emission_out", Slot::Now(Image::Emission), &[DirectEmission]),
+            ],
+        ),
+    }
+}

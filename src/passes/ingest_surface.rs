@@ -1,0 +1,37 @@
+//! A host's depth, normals and motion, see shaders/ingest_surface.wgsl.
+
+use super::{Pass, bindings};
+use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+
+const FEATURES: &[Feature] = &[
+    Feature::OctahedralNormals,
+    Feature::MappedNormals,
+    Feature::PackedNormals,
+    Feature::PreviousDepth,
+    Feature::Objects,
+    Feature::FloatObjects,
+    Feature::Diagnostics,
+];
+
+pub(crate) fn step(features: Features) -> Step {
+    let features = features.and(Features::of(FEATURES));
+    Step {
+        pass: Pass::IngestSurface,
+        features,
+        grid: Grid::Pixels,
+        iteration: 0,
+        bindings: bindings(
+            features,
+            [
+                ("depth", Slot::Host, &[]),
+                ("normal", Slot::Host, &[]),
+                ("motion", Slot::Host, &[]),
+                ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
+                ("instance", Slot::Host, &[Feature::Objects]),
+                ("guide_out", Slot::Now(Image::Guide), &[]),
+                ("motion_out", Slot::Now(Image::Motion), &[]),
+                ("object_out", Slot::Now(Image::Object), &[Feature::Objects]),
+            ],
+        ),
+    }
+}

@@ -1,0 +1,115 @@
+//! A host's radiance: demodulated and cleaned.
+
+use super::bench::{Bench, SIZES, Texel};
+use super::codec::{assert_close, unpack_rgb};
+use super::plane::V;
+use super::random::Random;
+use crate::Settings;
+use crate::passes::ingest_radiance;
+use crate::plan::{Feature, Features};
+
+fn half(bits: u32) -> f64 {
+    let (exponent, mantissa) = ((bits >> 10 & 31) as i32, f64::from(bits & 1023));
+    if exponent == 0 { mantissa * 2.0_f64.powi(-24) } else { (1.0 + mantissa / 1024.0) * 2.0_f64.powi(exponent - 15) }
+}
+
+/// Colours, now and then with a channel that is none.
+fn colors(count: usize, random: &mut Random) -> Vec<[f32; 3]> {
+    let broken = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.25];
+    let channel = |random: &mut Random| match random.below(12) {
+        0 => broken[random.below(4)],
+        1 => 0.0,
+        _ => random.unit() as f32,
+    };
+    (0..count).map(|_| [0; 3].map(|_| channel(random))).collect()
+}
+
+/// What may enter history of a channel.
+fn clean(x: f32) -> f64 {
+    if x.is_finite() && x > 0.0 { x.into() } else { 0.0 }
+}
+
+fn check(features: &[Feature]) {
+    let step = ingest_radiance::step(Features::of(features));
+    let has = |feature| step.features.has(feature);
+    for size in SIZES {
+        let bench = Bench::new(size, Settings::adaptive());
+        let mut random = Random(41);
+        let count = (size[0] * size[1]) as usize;
+        let guide = bench.guide(&mut random);
+        let records = bench.records(&guide, &mut random);
+        let [radiance, albedo, emission] = [0; 3].map(|_| colors(count, &mut random));
+        // Halves: ¼, ½, 1.
+        let before: Vec<u32> = (0..count).map(|_| [0x3400, 0x3800, 0x3c00][random.below(3)]).collect();
+        let texels = |image: &[[f32; 3]]| -> Vec<Texel> {
+            image.iter().map(|c| [c[0].to_bits(), c[1].to_bits(), c[2].to_bits(), 0]).collect()
+        };
+        let all = [
+            ("radiance", texels(&radiance)),
+            ("albedo", texels(&albedo)),
+            ("emission", texels(&emission)),
+            ("guide", guide.iter().map(|g| [g[0], g[1], 0, 0]).collect()),
+            ("samples", records.clone()),
+            ("albedo_previous", before.iter().map(|&h| [h | h << 16, h, 0, 0]).collect()),
+        ];
+        let used: Vec<_> =
+            all.into_iter().filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|b| b.0 == *n)).collect();
+        let written = bench.run(&step, &used);
+        for (x, y) in bench.pixels() {
+            let i = bench.at(x, y).unwrap();
+            let what = || format!("{size:?} ({x}, {y}), {:?}", step.features);
+            let modulated = has(Feature::Modulated);
+            let mut expected: V = radiance[i].map(clean);
+            if has(Feature::DirectEmission) {
+                let found = unpack_rgb([written["emission_out"][i][0], written["emission_out"][i][1]]);
+                for c in 0..3 {
+                    let e = clean(emission[i][c]);
+                    assert_close(found[c], e, 4e-6, || format!("{}: emission", what()));
+                    if modulated {
+                        expected[c] = (expected[c] - e).max(0.0);
+                    }
+                }
+            }
+            if has(Feature::Albedo) {
+                let texel = written["albedo_out"][i];
+                let found = [texel[0] & 0xffff, texel[0] >> 16, texel[1] & 0xffff].map(half);
+                let record = records[bench.stratum(x / 3, y / 3).unwrap()];
+                let repeats = record[0] != 0 && Bench::sample_pixel(record, x / 3, y / 3) == (x, y);
+                for c in 0..3 {
+                    let a = match (modulated, guide[i][1] != 0) {
+                        (false, _) => clean(albedo[i][c]),
+                        (true, true) => clean(albedo[i][c]).max(1e-3),
+                        (true, false) => 1.0,
+                    };
+                    assert_close(found[c], a, 1e-3 * a, || format!("{}: albedo", what()));
+                    if modulated && has(Feature::Reshade) && repeats {
+                        // The surface that was seen by the pixel whose path is repeated.
+                        let q = bench.at((record[1] & 0xffff) as i32, (record[1] >> 16) as i32).unwrap();
+                        expected[c] /= half(before[q]);
+                    } else if modulated {
+                        // By what was stored.
+                        expected[c] /= found[c];
+                    }
+                }
+            }
+            let found = unpack_rgb([written["radiance_out"][i][0], written["radiance_out"][i][1]]);
+            let largest = expected.into_iter().fold(0.0, f64::max);
+            for c in 0..3 {
+                assert_close(found[c], expected[c], 5e-6 * largest, || format!("{}: radiance", what()));
+            }
+        }
+    }
+}
+
+#[test]
+fn every_kind_of_radiance() {
+    use Feature::*;
+    check(&[]);
+    check(&[Albedo]);
+    check(&[DirectEmission]);
+    check(&[Albedo, DirectEmission]);
+    check(&[Modulated, DirectEmission]);
+    check(&[Modulated, Albedo]);
+    check(&[Modulated, Albedo, DirectEmission]);
+    check(&[Modulated, Albedo, DirectEmission, Reshade]);
+}

@@ -1,0 +1,110 @@
+//! What is not a number, infinite or negative neither spreads nor goes uncounted.
+
+use super::{Recorded, SIZE, Uploaded, colors, recorded, target, upload};
+use crate::common::gpu::gpu;
+use crate::common::statistics::Rgb;
+use asvgf::{Denoiser, DenoiserDescriptor, FilterSettings, Gradient, Pairs, Settings, Shading, View};
+
+fn counting(gradient: Gradient) -> Denoiser {
+    let filter = FilterSettings { gradient, ..Default::default() };
+    let settings = Settings { filter, ..Settings::adaptive() };
+    let descriptor = DenoiserDescriptor { size: SIZE, settings, diagnostics: true, ..Default::default() };
+    Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap()
+}
+
+/// A frame whose every 7th pixel has a channel that is none, each kind in turn; and the same frame cleaned by hand, with how many
+/// pixels are not finite and how many negative.
+fn soiled(frame: &Recorded) -> (Recorded, Recorded, [u32; 2]) {
+    let (mut bad, mut good, mut counts) = (frame.clone(), frame.clone(), [0; 2]);
+    let kinds = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, -f32::NAN, -1e30];
+    for (k, i) in (0..frame.light.len()).step_by(7).enumerate() {
+        let value = kinds[k % kinds.len()];
+        bad.light[i][k % 3] = value;
+        good.light[i][k % 3] = 0.0;
+        counts[usize::from(value.is_finite())] += 1;
+    }
+    (bad, good, counts)
+}
+
+fn denoise(denoiser: &mut Denoiser, frame: &Recorded) -> Vec<Rgb> {
+    let (host, target) = (Uploaded::new(gpu(), frame), target());
+    gpu().submit(|encoder| {
+        denoiser.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+        denoiser.denoise(&gpu().device, encoder, &host.shading(&target)).unwrap();
+    });
+    colors(&target)
+}
+
+#[test]
+fn bad_radiance_is_black_and_counted() {
+    let frames = recorded(Settings::adaptive());
+    let (mut a, mut b) = (counting(Gradient::Reshade), counting(Gradient::Reshade));
+    for frame in &frames[..4] {
+        let (bad, good, [non_finite, negative]) = soiled(frame);
+        assert_eq!(denoise(&mut a, &bad), denoise(&mut b, &good));
+        let [found, none] = [&mut a, &mut b].map(|d| d.take_counts().expect("a finished frame"));
+        assert_eq!([found.frame, found.non_finite, found.negative], [frame.index, non_finite, negative]);
+        assert_eq!([none.frame, none.surfaces, none.non_finite, none.negative, none.pairs], [frame.index, 0, 0, 0, 0]);
+        assert!(a.take_counts().is_none(), "one count for each frame");
+    }
+    assert!(super::view(&mut a, View::NonFinite).iter().all(|c| c[0] == 0.0));
+}
+
+#[test]
+fn bad_surfaces_are_left_out_and_counted() {
+    let mut frame = recorded(Settings::adaptive()).swap_remove(0);
+    frame.normal[3] = [f32::NAN, 0.0, 0.0];
+    frame.normal[50] = [0.0; 3];
+    frame.motion[70] = [f32::INFINITY, 0.0];
+    frame.previous_depth[90] = f32::NAN;
+    // These are no surfaces, and that is allowed.
+    (frame.depth[120], frame.depth[121], frame.depth[122], frame.depth[123]) = (0.0, -1.0, f32::INFINITY, f32::NAN);
+    let mut denoiser = counting(Gradient::Off);
+    let image = denoise(&mut denoiser, &frame);
+    assert!(image.iter().flatten().all(|c| c.is_finite() && *c >= 0.0));
+    assert_eq!(denoiser.take_counts().expect("a finished frame").surfaces, 4);
+    let depth = super::view(&mut denoiser, View::Depth);
+    for i in [3, 50, 120, 121, 122, 123] {
+        assert_eq!(depth[i][0], 0.0, "pixel {i} sees nothing");
+    }
+    let motion = super::view(&mut denoiser, View::Motion);
+    assert!(motion[70][0] < -1e8 && motion[90][0] < -1e8, "those were nowhere");
+}
+
+#[test]
+fn bad_pairs_are_left_out_and_counted() {
+    let frames = recorded(Settings::adaptive());
+    let mut denoiser = counting(Gradient::Pairs);
+    let target = target();
+    for frame in &frames[..3] {
+        let host = Uploaded::new(gpu(), frame);
+        // In each stratum's first pixel; every fifth is not finite.
+        let mut values = vec![[-1.0_f32; 3]; frame.light.len()];
+        let mut broken = 0;
+        let [width, height] = SIZE.map(|s| s as usize);
+        let firsts = (0..height).step_by(3).flat_map(|y| (0..width).step_by(3).map(move |x| y * width + x));
+        for (k, i) in firsts.enumerate() {
+            values[i] = [0.5; 3];
+            if k % 5 == 0 {
+                (values[i][k % 3], broken) = (f32::NAN, broken + 1);
+            }
+        }
+        let pair = upload(gpu(), SIZE, &values);
+        gpu().submit(|encoder| {
+            denoiser.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            let pairs = Some(Pairs { current: &pair, previous: &pair, in_place: false });
+            denoiser.denoise(&gpu().device, encoder, &Shading { pairs, ..host.shading(&target) }).unwrap();
+        });
+        assert!(colors(&target).iter().flatten().all(|c| c.is_finite()));
+        assert_eq!(denoiser.take_counts().expect("a finished frame").pairs, broken);
+    }
+    assert!(super::view(&mut denoiser, View::Lambda).iter().all(|l| l[0] == 0.0), "both values are equal");
+}
+
+#[test]
+fn without_diagnostics_nothing_is_counted() {
+    let frames = recorded(Settings::adaptive());
+    let mut denoiser = super::denoiser(Settings::adaptive());
+    denoise(&mut denoiser, &frames[0]);
+    assert!(denoiser.take_counts().is_none());
+}

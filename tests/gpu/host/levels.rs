@@ -1,0 +1,152 @@
+//! The three ways to an adaptive α agree with each other, and with the path tracer's own.
+
+use super::{SIZE, Uploaded, colors, denoiser, difference, recorded, replay, target, upload, view};
+use crate::common::gpu::gpu;
+use crate::common::statistics::Rgb;
+use asvgf::{FilterSettings, Gradient, Lambda, Pairs, Settings, Shading, View};
+use wgpu::TextureView;
+
+fn with(gradient: Gradient, history_ratio: bool) -> Settings {
+    let filter = FilterSettings { gradient, history_ratio, ..Default::default() };
+    Settings { filter, ..Settings::adaptive() }
+}
+
+/// Rounding: what is handed in went through a product and a quotient in f32, and is rounded once more to 18 bits; a path of which
+/// that makes the gradient look changed by 2⁻¹⁷ or so costs as much of a history.
+const ROUNDING: [f64; 2] = [5e-3, 1e-4];
+
+fn assert_same(a: &[Rgb], b: &[Rgb], allowed: [f64; 2], what: &str) {
+    let found = difference(a, b);
+    assert!(found[0] <= allowed[0] && found[1] <= allowed[1], "{what}: {found:?} is more than {allowed:?}");
+}
+
+#[test]
+fn level_2_is_the_path_tracers_own_gradient() {
+    let frames = recorded(Settings::adaptive());
+    let images = replay(&mut denoiser(Settings::adaptive()), &frames);
+    for (image, frame) in images.iter().zip(&frames) {
+        assert_same(image, &frame.denoised, ROUNDING, &format!("frame {}", frame.index));
+    }
+    // It is the gradient that does it: without, the lamp stays on in the history.
+    let blind = replay(&mut denoiser(with(Gradient::Off, false)), &frames);
+    let last = frames.len() - 1;
+    assert!(difference(&blind[last], &frames[last].denoised)[1] > 0.5, "nothing changed in this scene");
+}
+
+/// Pairs as the re-shaded paths of a frame give them, where `begin_frame` says that there are some.
+fn pairs(repeats: &TextureView, now: &[Rgb], before: &[Rgb]) -> [Vec<Rgb>; 2] {
+    let words: Vec<u32> = bytemuck::pod_collect_to_vec(&gpu().read(repeats.texture()));
+    let mut images = [vec![[-1.0; 3]; now.len()], vec![[-1.0; 3]; now.len()]];
+    let across = SIZE[0].div_ceil(3);
+    for (i, pair) in words.chunks_exact(8).enumerate() {
+        let (x, y) = (i as u32 % across, i as u32 / across);
+        if let Some(place) = pair[0].checked_sub(1) {
+            let pixel = ((3 * y + place / 3) * SIZE[0] + 3 * x + place % 3) as usize;
+            let previous = ((pair[1] >> 16) * SIZE[0] + (pair[1] & 0xffff)) as usize;
+            images[0][pixel] = now[pixel];
+            images[1][pixel] = before[previous];
+        }
+    }
+    images
+}
+
+#[test]
+fn level_1_is_level_2_with_the_pairs_by_hand() {
+    let frames = recorded(Settings::adaptive());
+    let (mut shown, mut told) = (denoiser(Settings::adaptive()), denoiser(with(Gradient::Pairs, true)));
+    let [a, b] = [0; 2].map(|_| target());
+    let mut largest = 0.0_f32;
+    for (i, frame) in frames.iter().enumerate() {
+        let host = Uploaded::new(gpu(), frame);
+        let reshade = gpu().submit(|encoder| {
+            let reshade = shown.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            shown.denoise(&gpu().device, encoder, &host.shading(&a)).unwrap();
+            reshade.expect("what to repeat")
+        });
+        let [current, previous] = pairs(&reshade.repeats, &frame.light, &frames[i.saturating_sub(1)].light);
+        let [current, previous] = [current, previous].map(|image| upload(gpu(), SIZE, &image));
+        gpu().submit(|encoder| {
+            let none = told.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            assert!(none.is_none(), "nothing is to be repeated");
+            let pairs = Some(Pairs { current: &current, previous: &previous, in_place: true });
+            told.denoise(&gpu().device, encoder, &Shading { pairs, ..host.shading(&b) }).unwrap();
+        });
+        assert_same(&colors(&b), &colors(&a), [1e-5, 1e-6], &format!("frame {}", frame.index));
+        largest = view(&mut told, View::Lambda).iter().fold(largest, |largest, l| largest.max(l[0]));
+    }
+    assert!(largest > 0.5, "the lamp went out");
+}
+
+#[test]
+fn level_0_with_the_same_lambda_does_the_same() {
+    let frames = recorded(with(Gradient::Reshade, false));
+    let (mut found, mut told) = (denoiser(with(Gradient::Pairs, false)), denoiser(with(Gradient::Lambda, false)));
+    let mut doubting = denoiser(with(Gradient::Lambda, false));
+    let mut guide = denoiser(with(Gradient::Reshade, false));
+    let [a, b, c] = [0; 3].map(|_| target());
+    for (i, frame) in frames.iter().enumerate() {
+        let host = Uploaded::new(gpu(), frame);
+        let reshade = gpu().submit(|encoder| {
+            let reshade = guide.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            guide.denoise(&gpu().device, encoder, &host.shading(&a)).unwrap();
+            reshade.expect("what to repeat")
+        });
+        let images = pairs(&reshade.repeats, &frame.light, &frames[i.saturating_sub(1)].light);
+        let [current, previous] = images.map(|image| upload(gpu(), SIZE, &image));
+        gpu().submit(|encoder| {
+            found.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            // Not in place: then nothing but λ comes of the pairs.
+            let pairs = Some(Pairs { current: &current, previous: &previous, in_place: false });
+            found.denoise(&gpu().device, encoder, &Shading { pairs, ..host.shading(&a) }).unwrap();
+        });
+        let lambda: Vec<f32> = view(&mut found, View::Lambda).iter().map(|l| l[0]).collect();
+        let image = |f: &dyn Fn(f32) -> f32| upload(gpu(), SIZE, &lambda.iter().map(|&l| [f(l)]).collect::<Vec<_>>());
+        let (lambda, confidence) = (image(&|l| l), image(&|l| 1.0 - l));
+        for (denoiser, view, confidence, target) in
+            [(&mut told, &lambda, false, &b), (&mut doubting, &confidence, true, &c)]
+        {
+            gpu().submit(|encoder| {
+                denoiser.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+                let lambda = Some(Lambda { view, block: 1, confidence });
+                denoiser.denoise(&gpu().device, encoder, &Shading { lambda, ..host.shading(target) }).unwrap();
+            });
+        }
+        // λ is shown in steps of 1/255, rounded up: up to 1.4 % of a history's length, (1 − λ)^3.5, is lost more.
+        let what = format!("frame {}", frame.index);
+        assert_same(&colors(&b), &colors(&a), [0.1, 5e-3], &what);
+        assert_same(&colors(&c), &colors(&b), [1e-4, 1e-6], &what);
+    }
+}
+
+#[test]
+fn lambda_may_come_at_a_part_of_the_resolution() {
+    // Left third keeps all, middle half, right nothing: as one texel for 16 pixels.
+    let frames = recorded(Settings::adaptive());
+    let steps = [0.0, 0.5, 1.0];
+    let coarse = upload(gpu(), [3, 3], &[0.0, 0.5, 1.0, 0.0, 0.5, 1.0, 0.0, 0.5, 1.0].map(|l| [l]));
+    let target = target();
+    let mut denoiser = denoiser(with(Gradient::Lambda, false));
+    for frame in &frames {
+        let host = Uploaded::new(gpu(), frame);
+        gpu().submit(|encoder| {
+            denoiser.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            let lambda = Some(Lambda { view: &coarse, block: 16, confidence: false });
+            denoiser.denoise(&gpu().device, encoder, &Shading { lambda, ..host.shading(&target) }).unwrap();
+        });
+    }
+    let shown = view(&mut denoiser, View::Lambda);
+    let lengths = view(&mut denoiser, View::HistoryLength);
+    for (i, (lambda, length)) in shown.iter().zip(&lengths).enumerate() {
+        let expected = steps[i % SIZE[0] as usize / 16];
+        // 0 where there is no history, as at the edge that the camera uncovers.
+        if length[0] > 1.0 || expected == 1.0 {
+            assert!(
+                lambda[0] == 0.0 && length[0] <= 1.0 || (lambda[0] - expected).abs() <= 1.0 / 255.0,
+                "{i}: {lambda:?}"
+            );
+        }
+        if expected == 1.0 {
+            assert_eq!(length[0], 1.0, "{i}: all was to be dropped");
+        }
+    }
+}

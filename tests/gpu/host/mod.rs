@@ -1,0 +1,169 @@
+//! A host's own frames: the path tracer's images handed in again, and those of a tiny renderer.
+
+mod cleaning;
+mod formats;
+mod levels;
+mod recording;
+mod refusals;
+mod renderer;
+
+use crate::common::gpu::{Gpu, gpu};
+use crate::common::stage::Stage;
+use crate::common::statistics::Rgb;
+use asvgf::{Camera, Denoiser, DenoiserDescriptor, Settings, Shading, Surfaces, View, ViewOptions};
+use wgpu::{Extent3d, TexelCopyBufferLayout, TextureFormat, TextureUsages, TextureView};
+
+const SIZE: [u32; 2] = [48, 36];
+
+/// One frame of the path tracer as a host would have it, and what the denoiser made of it.
+#[derive(Clone)]
+struct Recorded {
+    index: u32,
+    camera: Camera,
+    depth: Vec<f32>,
+    normal: Vec<Rgb>,
+    motion: Vec<[f32; 2]>,
+    previous_depth: Vec<f32>,
+    albedo: Vec<Rgb>,
+    /// Noisy, without albedo.
+    light: Vec<Rgb>,
+    denoised: Vec<Rgb>,
+}
+
+/// Frames of the box of Cornell about the one in which its lamp goes out, seen by a camera that moves and sees no lamp.
+fn recorded(settings: Settings) -> Vec<Recorded> {
+    let mut stage = Stage::built_in("cornell", "blink", SIZE, settings);
+    (stage.index..10)
+        .map(|i| {
+            let index = 24 + i;
+            let x = 0.1 + 0.01 * i as f32;
+            let camera = Camera { eye: [x, 0.8, 3.0], target: [0.3, 0.5, -1.0], fov_y: 0.4, ..Default::default() };
+            (stage.camera, stage.index) = (Some(camera), index);
+            let denoised = stage.frame().image();
+            let [normal, motion, albedo, noisy] =
+                [View::Normal, View::Motion, View::Albedo, View::Noisy].map(|view| stage.view(view));
+            let light = noisy.iter().zip(&albedo).map(|(n, a)| [0, 1, 2].map(|c| n[c] / a[c].max(1e-3))).collect();
+            Recorded {
+                index,
+                camera,
+                depth: stage.view(View::Depth).iter().map(|d| d[0]).collect(),
+                normal,
+                previous_depth: motion.iter().map(|m| m[2]).collect(),
+                motion: motion.iter().map(|m| [m[0], m[1]]).collect(),
+                albedo,
+                light,
+                denoised,
+            }
+        })
+        .collect()
+}
+
+/// An image of floats, `N` channels each, to read in shaders.
+fn upload<const N: usize>(gpu: &Gpu, size: [u32; 2], texels: &[[f32; N]]) -> TextureView {
+    let format = [TextureFormat::R32Float, TextureFormat::Rg32Float, TextureFormat::Rgba32Float][N.min(3) - 1];
+    let channels = if N == 3 { 4 } else { N };
+    let bytes: Vec<u8> = texels
+        .iter()
+        .flat_map(|t| (0..channels).flat_map(|c| t.get(c).copied().unwrap_or(1.0).to_le_bytes()))
+        .collect();
+    upload_bytes(gpu, size, format, &bytes)
+}
+
+fn upload_bytes(gpu: &Gpu, size: [u32; 2], format: TextureFormat, bytes: &[u8]) -> TextureView {
+    let texture = gpu.texture(size, format, TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST);
+    let bytes_per_row = Some(size[0] * format.block_copy_size(None).unwrap());
+    gpu.queue.write_texture(
+        texture.as_image_copy(),
+        bytes,
+        TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None },
+        Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+    );
+    texture.create_view(&Default::default())
+}
+
+/// A frame's images on the GPU.
+struct Uploaded {
+    frame: Recorded,
+    depth: TextureView,
+    normal: TextureView,
+    motion: TextureView,
+    previous_depth: TextureView,
+    albedo: TextureView,
+    light: TextureView,
+}
+
+impl Uploaded {
+    fn new(gpu: &Gpu, frame: &Recorded) -> Self {
+        let scalars = |image: &[f32]| upload(gpu, SIZE, &image.iter().map(|&x| [x]).collect::<Vec<_>>());
+        Self {
+            frame: frame.clone(),
+            depth: scalars(&frame.depth),
+            normal: upload(gpu, SIZE, &frame.normal),
+            motion: upload(gpu, SIZE, &frame.motion),
+            previous_depth: scalars(&frame.previous_depth),
+            albedo: upload(gpu, SIZE, &frame.albedo),
+            light: upload(gpu, SIZE, &frame.light),
+        }
+    }
+
+    fn surfaces(&self) -> Surfaces<'_> {
+        Surfaces {
+            camera: self.frame.camera.into(),
+            index: self.frame.index,
+            depth: &self.depth,
+            normal: &self.normal,
+            motion: &self.motion,
+            previous_depth: Some(&self.previous_depth),
+            instance: None,
+        }
+    }
+
+    fn shading<'a>(&'a self, target: &'a TextureView) -> Shading<'a> {
+        Shading { albedo: Some(&self.albedo), demodulated: true, ..Shading::new(&self.light, target) }
+    }
+}
+
+fn denoiser(settings: Settings) -> Denoiser {
+    let descriptor = DenoiserDescriptor { size: SIZE, settings, ..Default::default() };
+    Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap()
+}
+
+fn target() -> TextureView {
+    gpu().target(SIZE, TextureFormat::Rgba32Float)
+}
+
+fn colors(view: &TextureView) -> Vec<Rgb> {
+    let float = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+    let texel = |t: &[u8]| [float(&t[0..4]), float(&t[4..8]), float(&t[8..12])];
+    gpu().read(view.texture()).chunks_exact(16).map(texel).collect()
+}
+
+/// An intermediate image as numbers.
+fn view(denoiser: &mut Denoiser, view: View) -> Vec<Rgb> {
+    let target = gpu().target(denoiser.size(), TextureFormat::Rgba32Float);
+    gpu().submit(|e| denoiser.show(&gpu().device, e, view, ViewOptions::default(), &target)).unwrap();
+    colors(&target)
+}
+
+/// What the denoiser makes of frames, in order.
+fn replay(denoiser: &mut Denoiser, frames: &[Recorded]) -> Vec<Vec<Rgb>> {
+    let target = target();
+    let mut images = Vec::new();
+    for frame in frames {
+        let host = Uploaded::new(gpu(), frame);
+        gpu().submit(|encoder| {
+            denoiser.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            denoiser.denoise(&gpu().device, encoder, &host.shading(&target)).unwrap();
+        });
+        images.push(colors(&target));
+    }
+    images
+}
+
+/// Largest and mean difference of two images, relative to the mean of the second.
+fn difference(a: &[Rgb], b: &[Rgb]) -> [f64; 2] {
+    assert_eq!(a.len(), b.len());
+    let each: Vec<f64> = a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| f64::from((x - y).abs())).collect();
+    let level = b.iter().flatten().map(|x| f64::from(*x)).sum::<f64>() / each.len() as f64;
+    [each.iter().fold(0.0_f64, |m, x| m.max(*x)) / level, each.iter().sum::<f64>() / each.len() as f64 / level]
+}

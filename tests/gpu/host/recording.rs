@@ -1,0 +1,127 @@
+//! How a host records its frames makes no difference, and what it changes between them begins anew.
+
+use super::{SIZE, Uploaded, colors, denoiser, recorded, replay, target};
+use crate::common::gpu::{Gpu, gpu};
+use crate::common::stage::Stage;
+use crate::common::statistics::Rgb;
+use asvgf::{Denoiser, DenoiserDescriptor, Error, FilterSettings, Gradient, Settings, View};
+use wgpu::{CommandEncoder, InstanceFlags, TextureFormat, TextureView};
+
+fn record(denoiser: &mut Denoiser, gpu: &Gpu, encoder: &mut CommandEncoder, host: &Uploaded, target: &TextureView) {
+    denoiser.begin_frame(&gpu.device, encoder, &host.surfaces()).unwrap();
+    denoiser.denoise(&gpu.device, encoder, &host.shading(target)).unwrap();
+}
+
+#[test]
+fn three_frames_and_two_denoisers_may_share_an_encoder() {
+    let frames = recorded(Settings::adaptive());
+    let alone = replay(&mut denoiser(Settings::adaptive()), &frames[..6]);
+    let other_alone = replay(&mut denoiser(Settings::classic()), &frames[..6]);
+    let (mut one, mut other) = (denoiser(Settings::adaptive()), denoiser(Settings::classic()));
+    let [a, b] = [0; 2].map(|_| target());
+    for three in 0..2 {
+        let hosts: Vec<Uploaded> = frames[3 * three..3 * three + 3].iter().map(|f| Uploaded::new(gpu(), f)).collect();
+        gpu().submit(|encoder| {
+            for host in &hosts {
+                // One inside the other's frame.
+                one.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+                record(&mut other, gpu(), encoder, host, &b);
+                one.denoise(&gpu().device, encoder, &host.shading(&a)).unwrap();
+            }
+        });
+        assert_eq!(colors(&a), alone[3 * three + 2]);
+        assert_eq!(colors(&b), other_alone[3 * three + 2]);
+    }
+}
+
+#[test]
+fn a_device_that_is_strict_about_webgpu_suffices() {
+    let strict = Gpu::new(InstanceFlags::STRICT_WEBGPU_COMPLIANCE);
+    let frames = recorded(Settings::adaptive());
+    let descriptor = DenoiserDescriptor { size: SIZE, diagnostics: true, ..Default::default() };
+    let mut there = Denoiser::new(&strict.device, &strict.queue, &descriptor).unwrap();
+    let target = strict.target(SIZE, TextureFormat::Rgba32Float);
+    for frame in &frames[..4] {
+        let host = Uploaded::new(&strict, frame);
+        strict.submit(|encoder| record(&mut there, &strict, encoder, &host, &target));
+    }
+    let here = replay(&mut denoiser(Settings::adaptive()), &frames[..4]);
+    assert_eq!(bytemuck::pod_collect_to_vec::<u8, [f32; 4]>(&strict.read(target.texture())).len(), here[3].len());
+    let there: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&strict.read(target.texture()));
+    assert!(there.iter().zip(&here[3]).all(|(a, b)| a[..3] == b[..]));
+}
+
+/// The images of frames 4…7 after something was done to a denoiser that had frames 0…3.
+fn after(what: impl FnOnce(&mut Denoiser)) -> Vec<Vec<Rgb>> {
+    let frames = recorded(Settings::adaptive());
+    let mut denoiser = denoiser(Settings::adaptive());
+    replay(&mut denoiser, &frames[..4]);
+    what(&mut denoiser);
+    replay(&mut denoiser, &frames[4..8])
+}
+
+#[test]
+fn what_begins_anew_and_what_does_not() {
+    let frames = recorded(Settings::adaptive());
+    let fresh = replay(&mut denoiser(Settings::adaptive()), &frames[4..8]);
+    let continued = after(|_| {});
+    assert_ne!(fresh[0], continued[0]);
+    assert_eq!(after(Denoiser::reset), fresh);
+    assert_eq!(
+        after(|d| {
+            d.resize(&gpu().device, [7, 5]).unwrap();
+            d.resize(&gpu().device, SIZE).unwrap();
+        }),
+        fresh
+    );
+    // A frame that is begun and never finished, or begun twice, leaves no trace.
+    let begin = |d: &mut Denoiser, frame: usize| {
+        let host = Uploaded::new(gpu(), &frames[frame]);
+        gpu().submit(|encoder| d.begin_frame(&gpu().device, encoder, &host.surfaces())).unwrap();
+    };
+    assert_eq!(after(|d| begin(d, 4)), continued);
+    assert_eq!(
+        after(|d| {
+            begin(d, 7);
+            begin(d, 2);
+        }),
+        continued
+    );
+    // Nor do settings that are changed between the two calls and back.
+    assert_eq!(
+        after(|d| {
+            begin(d, 4);
+            let filter = FilterSettings { gradient: Gradient::Off, ..Default::default() };
+            d.set_settings(Settings { filter, ..Settings::adaptive() }).unwrap();
+            let host = Uploaded::new(gpu(), &frames[4]);
+            let error = gpu().submit(|e| d.denoise(&gpu().device, e, &host.shading(&target()))).unwrap_err();
+            assert!(matches!(error, Error::NotBegun), "{error}");
+            d.set_settings(Settings::adaptive()).unwrap();
+        }),
+        continued
+    );
+    assert_eq!(after(|d| d.resize(&gpu().device, SIZE).unwrap()), continued);
+}
+
+#[test]
+fn a_frame_that_was_left_out_begins_anew() {
+    let frames = recorded(Settings::adaptive());
+    for settings in [Settings::adaptive(), Settings::adaptive().constant(0.2)] {
+        let mut skipping = denoiser(settings.clone());
+        replay(&mut skipping, &frames[..4]);
+        let fresh = replay(&mut denoiser(settings), &frames[5..7]);
+        assert_eq!(replay(&mut skipping, &frames[5..7]), fresh);
+    }
+}
+
+#[test]
+fn traced_and_hosted_frames_share_no_history() {
+    let frames = recorded(Settings::adaptive());
+    let fresh = replay(&mut denoiser(Settings::adaptive()), &frames[4..6]);
+    let mut stage = Stage::built_in("cornell", "blink", SIZE, Settings::adaptive());
+    stage.index = frames[0].index;
+    stage.frames(4);
+    assert_eq!(replay(&mut stage.denoiser, &frames[4..6]), fresh);
+    stage.index = frames[6].index;
+    assert!(stage.frame().view(View::HistoryLength).iter().all(|n| n[0] <= 1.0));
+}
