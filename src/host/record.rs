@@ -7,7 +7,7 @@ use crate::gpu::counts::Counters;
 use crate::gpu::frame::Moment;
 use crate::gpu::timing::FrameQueries;
 use crate::passes::Pass;
-use crate::plan::{Feature, HostTraits, Image, Plan};
+use crate::plan::{Feature, HostTraits, Image, Plan, Traversal};
 use crate::settings::{Gradient, Mode};
 use wgpu::{BindingResource, Buffer, CommandEncoder, Device, TextureFormat};
 
@@ -86,9 +86,9 @@ impl Denoiser {
         let mut traits = HostTraits { diagnostics: self.counters.is_some(), ..Default::default() };
         views::surfaces(&mut traits, surfaces, self.size)?;
         // What the light's views will have changes neither this half nor which of its images outlive the frame.
-        let plan = Plan::hosted(&traits, &self.settings, TextureFormat::Rgba32Float);
+        let plan = self.adapt(Plan::hosted(&traits, &self.settings, TextureFormat::Rgba32Float));
         let steps = &plan.steps[..plan.surface_steps()];
-        self.compile(device, steps, 0)?;
+        self.compile(device, steps, Traversal::default())?;
         self.abandon();
         if self.textures.grow(device, self.size, &plan) {
             self.history = false;
@@ -151,9 +151,9 @@ impl Denoiser {
         let format = self.check_target(shading.target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let mut traits = begun.traits;
         views::shading(&mut traits, shading, self.size, &self.settings)?;
-        let plan = Plan::hosted(&traits, &self.settings, format);
+        let plan = self.adapt(Plan::hosted(&traits, &self.settings, format));
         let steps = &plan.steps[plan.surface_steps()..];
-        self.compile(device, steps, 0)?;
+        self.compile(device, steps, Traversal::default())?;
         let Some(Begun { mut moment, mut uniform, counts, mut queries, .. }) = self.begun.take() else {
             return Err(Error::NotBegun);
         };
