@@ -1,8 +1,9 @@
-//! What a frame costs: `cargo bench --bench frame [-- FRAMES]`.
+//! What a frame costs: `cargo bench --bench frame [-- [FRAMES] [CASE]]`; CASE is a part of a case's name, as printed.
 //!
 //! Prints the adapter first, then for each case the median over the frames of each pass, and rays per second. On a software
-//! adapter, whose timestamps are those of the queue and not of the work, each pass is submitted and waited for by itself.
-//! Run it on an otherwise idle machine; compare only figures of one run.
+//! adapter, whose timestamps are those of the queue and not of the work, each pass is submitted and waited for by itself, and
+//! what counts is the processor time of all threads over the number of cores: on an idle machine that is the time on the clock,
+//! and on a busy one it is disturbed less. Compare only figures of one run.
 
 #[path = "../examples/support/gpu.rs"]
 mod gpu;
@@ -10,15 +11,16 @@ mod gpu;
 use asvgf::scene::{GpuScene, builtin};
 use asvgf::wgpu::{DeviceType, TextureFormat};
 use asvgf::{Camera, Denoiser, DenoiserDescriptor, Frame, Settings, View, ViewOptions};
+use cpu_time::ProcessTime;
 use gpu::Gpu;
 use std::collections::BTreeMap;
-use std::time::Instant;
+use std::time::Duration;
 
 /// Frames before the first that counts: pipelines compile in the first, histories are short in the next.
 const WARM_UP: u32 = 5;
 
 fn main() {
-    let frames = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(15);
+    let frames = std::env::args().skip(1).filter_map(|a| a.parse().ok()).next().unwrap_or(15);
     let gpu = Gpu::new().unwrap_or_else(|e| {
         eprintln!("{e}");
         std::process::exit(1);
@@ -27,13 +29,24 @@ fn main() {
         "{} ({}, {:?}), {frames} frames after {WARM_UP}",
         gpu.adapter.name, gpu.adapter.driver_info, gpu.adapter.backend
     );
+    let chosen: Vec<String> =
+        std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
+    let runs = |case: &str| chosen.iter().all(|c| case.contains(c.as_str()));
     // The box fills a square image; the wide one is what a filter is usually quoted for.
-    trace(&gpu, "cornell", "static", [512, 512], frames);
-    trace(&gpu, "cornell", "all", [512, 512], frames);
-    trace(&gpu, "pillars", "static", [512, 512], frames);
-    filter(&gpu, "adaptive", Settings::adaptive(), frames);
-    filter(&gpu, "constant 0.1", Settings::adaptive().constant(0.1), frames);
-    filter(&gpu, "classic", Settings::classic(), frames);
+    for [scene, animation] in [["cornell", "static"], ["cornell", "all"], ["pillars", "static"]] {
+        if runs(&format!("trace {scene}, {animation}")) {
+            trace(&gpu, scene, animation, [512, 512], frames);
+        }
+    }
+    for (name, settings) in [
+        ("adaptive", Settings::adaptive()),
+        ("constant 0.1", Settings::adaptive().constant(0.1)),
+        ("classic", Settings::classic()),
+    ] {
+        if runs(&format!("filter {name}")) {
+            filter(&gpu, name, settings, frames);
+        }
+    }
 }
 
 /// Rays per second of the tracing passes, at three bounces with light samples.
@@ -94,13 +107,13 @@ fn measure(
                 *times.entry(pass).or_default() += ms;
             }
         } else {
-            let mut start = Instant::now();
+            let mut start = ProcessTime::now();
             let stepped = denoiser.render_stepwise(&gpu.device, &mut encoder, &frame, |pass, encoder| {
                 let recorded = std::mem::replace(encoder, gpu.device.create_command_encoder(&Default::default()));
                 gpu.queue.submit([recorded.finish()]);
                 gpu.wait();
-                *times.entry(pass.name()).or_default() += start.elapsed().as_secs_f64() * 1e3;
-                start = Instant::now();
+                *times.entry(pass.name()).or_default() += milliseconds_per_core(start.elapsed());
+                start = ProcessTime::now();
             });
             stepped.expect("a frame");
         }
@@ -115,6 +128,10 @@ fn measure(
     gpu.queue.submit([encoder.finish()]);
     let rays = gpu.read_colors(&target).iter().map(|c| f64::from(c[0])).sum();
     (samples.into_iter().map(|(pass, times)| (pass, median(times))).collect(), rays)
+}
+
+fn milliseconds_per_core(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3 / std::thread::available_parallelism().map_or(1.0, |n| n.get() as f64)
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

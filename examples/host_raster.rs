@@ -29,15 +29,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let moment = Moment::at(index);
         let scene = renderer.scene(&moment, &Moment::at(index.saturating_sub(1)));
         renderer.draw(&mut encoder, &scene);
-        let surfaces = Surfaces {
-            camera: moment.matrices(SIZE).into(),
-            index,
-            depth: &renderer.depth,
-            normal: &renderer.normal,
-            motion: &renderer.motion,
-            previous_depth: None,
-            instance: None,
-        };
+        let r = &renderer;
+        let surfaces = Surfaces::new(moment.matrices(SIZE), index, &r.depth, &r.normal, &r.motion);
         let reshade = denoiser.begin_frame(&gpu.device, &mut encoder, &surfaces)?.ok_or("the gradient is off")?;
         renderer.shade(&mut encoder, &scene, &reshade);
         let shading = Shading { albedo: Some(&renderer.albedo), ..Shading::new(&renderer.radiance, &clean) };

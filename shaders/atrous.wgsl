@@ -11,7 +11,11 @@
 
 @group(0) @binding(1) var<uniform> stride: i32;
 // Demodulated radiance, deviation of its luminance, normal and depth.
+#ifdef STORAGE_READS
+@group(0) @binding(3) var color: texture_storage_2d<rgba32uint, read>;
+#else
 @group(0) @binding(3) var color: texture_2d<u32>;
+#endif
 @group(0) @binding(5) var color_out: texture_storage_2d<rgba32uint, write>;
 #ifdef FEEDBACK
 // The next frame's history of the colour.
@@ -42,11 +46,18 @@ struct Sums {
 #endif
 }
 
+fn texel(pixel: vec2<i32>) -> vec4<u32> {
+#ifdef STORAGE_READS
+    return textureLoad(color, pixel);
+#else
+    return textureLoad(color, pixel, 0);
+#endif
+}
+
 // A tap's texel; all zero, which is a depth of 0 and so no surface, outside the image.
 fn load(pixel: vec2<i32>, offset: vec2<i32>) -> vec4<u32> {
     let tap = pixel + offset * stride;
-    let texel = textureLoad(color, clamp(tap, vec2(0), vec2<i32>(frame.size) - 1), 0);
-    return select(vec4(0u), texel, inside(tap));
+    return select(vec4(0u), texel(tap), inside(tap));
 }
 
 fn add_tap(sums: ptr<function, Sums>, c: Center, texel: vec4<u32>, offset: vec2<i32>, kernel: f32) {
@@ -107,10 +118,7 @@ fn fit(sums: Sums) -> vec3<f32> {
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) {
-        return;
-    }
-    let own = textureLoad(color, pixel, 0);
+    let own = texel(pixel);
     let depth = bitcast<f32>(own.w);
     let west = load(pixel, vec2(-1, 0));
     let east = load(pixel, vec2(1, 0));
@@ -188,8 +196,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let filtered = sums.color / sums.weight;
 #endif
     // A miss is carried on as it is: it filters nothing, and what comes of it is not kept.
-    let texel = pack_tap(filtered, sqrt(sums.variance) / sums.weight, own.zw);
-    textureStore(color_out, pixel, select(vec4(0u), texel, depth > 0.0));
+    let result = pack_tap(filtered, sqrt(sums.variance) / sums.weight, own.zw);
+    textureStore(color_out, pixel, select(vec4(0u), result, depth > 0.0));
 #ifdef FEEDBACK
     textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(filtered), depth > 0.0), 0u, 0u));
 #endif

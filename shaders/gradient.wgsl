@@ -82,9 +82,6 @@ fn history_ratio(stratum: vec2<i32>) -> HistoryRatio {
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if any(id.xy >= frame.strata) {
-        return;
-    }
     let stratum = vec2<i32>(id.xy);
     let record = textureLoad(samples, stratum, 0);
     var gradient = vec2(0.0);

@@ -4,17 +4,36 @@
 #import asvgf::strata_filter::{site, tap_weight, in_grid}
 
 @group(0) @binding(1) var<uniform> stride: i32;
+@group(0) @binding(4) var gradient_out: texture_storage_2d<rg32float, write>;
+
+#ifdef STORAGE_READS
+@group(0) @binding(2) var samples: texture_storage_2d<rgba32uint, read>;
+@group(0) @binding(3) var gradient: texture_storage_2d<rg32float, read>;
+
+fn record_of(stratum: vec2<i32>) -> vec4<u32> {
+    return textureLoad(samples, stratum);
+}
+
+fn gradient_of(stratum: vec2<i32>) -> vec2<f32> {
+    return textureLoad(gradient, stratum).xy;
+}
+#else
 @group(0) @binding(2) var samples: texture_2d<u32>;
 @group(0) @binding(3) var gradient: texture_2d<f32>;
-@group(0) @binding(4) var gradient_out: texture_storage_2d<rg32float, write>;
+
+fn record_of(stratum: vec2<i32>) -> vec4<u32> {
+    return textureLoad(samples, stratum, 0);
+}
+
+fn gradient_of(stratum: vec2<i32>) -> vec2<f32> {
+    return textureLoad(gradient, stratum, 0).xy;
+}
+#endif
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if any(id.xy >= frame.strata) {
-        return;
-    }
     let stratum = vec2<i32>(id.xy);
-    let record = textureLoad(samples, stratum, 0);
+    let record = record_of(stratum);
     var sum = vec2(0.0);
     var weights = 0.0;
     if record.x != 0u {
@@ -24,10 +43,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                 let offset = vec2(x, y);
                 let tap = stratum + offset * stride;
                 let clamped = clamp(tap, vec2(0), vec2<i32>(frame.strata) - 1);
-                let other = textureLoad(samples, clamped, 0);
+                let other = record_of(clamped);
                 let there = tap_weight(center, site(other, clamped), offset, stride);
                 let w = select(0.0, there, in_grid(tap) && other.x != 0u);
-                sum += w * textureLoad(gradient, clamped, 0).xy;
+                sum += w * gradient_of(clamped);
                 weights += w;
             }
         }

@@ -18,9 +18,6 @@
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if any(id.xy >= frame.strata) {
-        return;
-    }
     let stratum = vec2<i32>(id.xy);
     let record = textureLoad(samples, stratum, 0);
     var now = vec3(0.0);

@@ -4,7 +4,6 @@
 #import asvgf::strata_filter::{site, tap_weight, in_grid}
 
 @group(0) @binding(1) var<uniform> stride: i32;
-@group(0) @binding(2) var samples: texture_2d<u32>;
 @group(0) @binding(3) var now: texture_2d<f32>;
 @group(0) @binding(4) var before: texture_2d<f32>;
 @group(0) @binding(5) var product: texture_2d<f32>;
@@ -12,13 +11,24 @@
 @group(0) @binding(7) var before_out: texture_storage_2d<rgba32float, write>;
 @group(0) @binding(8) var product_out: texture_storage_2d<r32float, write>;
 
+#ifdef STORAGE_READS
+@group(0) @binding(2) var samples: texture_storage_2d<rgba32uint, read>;
+
+fn record_of(stratum: vec2<i32>) -> vec4<u32> {
+    return textureLoad(samples, stratum);
+}
+#else
+@group(0) @binding(2) var samples: texture_2d<u32>;
+
+fn record_of(stratum: vec2<i32>) -> vec4<u32> {
+    return textureLoad(samples, stratum, 0);
+}
+#endif
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if any(id.xy >= frame.strata) {
-        return;
-    }
     let stratum = vec2<i32>(id.xy);
-    let record = textureLoad(samples, stratum, 0);
+    let record = record_of(stratum);
     var sum_now = vec4(0.0);
     var sum_before = vec4(0.0);
     var sum_product = 0.0;
@@ -30,7 +40,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                 let offset = vec2(x, y);
                 let tap = stratum + offset * stride;
                 let clamped = clamp(tap, vec2(0), vec2<i32>(frame.strata) - 1);
-                let other = textureLoad(samples, clamped, 0);
+                let other = record_of(clamped);
                 let there = tap_weight(center, site(other, clamped), offset, stride);
                 let w = select(0.0, there, in_grid(tap) && other.x != 0u);
                 sum_now += w * textureLoad(now, clamped, 0);

@@ -26,9 +26,6 @@ const CANDIDATES = 3u;
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if any(id.xy >= frame.strata) {
-        return;
-    }
     let stratum = vec2<i32>(id.xy);
     var record = vec4(0u);
     if frame.continued != 0u {

@@ -3,13 +3,30 @@
 //   place of the pixel that repeats, 1…9 (0: none) · last frame's pixel, x | y << 16 · that pixel's packed normal · its depth
 //   how far the surface has moved since, in world space
 
-#import asvgf::frame::{frame, sample_point, world_position}
+#import asvgf::frame::{frame, project, sample_point, world_position}
+#import asvgf::packing::unpack_normal
 #import asvgf::strata::{previous_pixel, sample_pixel}
 
 @group(0) @binding(1) var samples: texture_2d<u32>;
 @group(0) @binding(2) var guide_previous: texture_2d<u32>;
 @group(0) @binding(3) var motion: texture_2d<f32>;
 @group(0) @binding(4) var repeats_out: texture_storage_2d<rgba32uint, write>;
+
+// Whether a surface rests: a point that does shall be shaded at the same place to the last bit, so that its gradient is exactly 0,
+// though the host's motion is rounded. `moved` is how far that says it moved, `seen` where the last frame saw it.
+fn rests(now: vec3<f32>, moved: vec3<f32>, seen: vec3<f32>, point: vec2<f32>, m: vec3<f32>, normal: vec3<f32>) -> bool {
+    let before = project(frame.previous, now);
+    // A hundredth of a pixel: what f32 rounds is far below.
+    if dot(moved, moved) <= 1e-10 * before.z * before.z {
+        return true;
+    }
+    // What f16 rounds: 2⁻¹¹ of motion and depth. That may hide a real move towards the eye, hence the third test: the point that
+    // was seen is still on the surface.
+    let shift = abs(m.xy - (before.xy - point));
+    return all(shift <= 0.002 + abs(m.xy) * 0.001)
+        && abs(m.z - before.z) <= 0.001 * before.z
+        && abs(dot(normal, now - seen)) <= 1e-4 * before.z;
+}
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -29,10 +46,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // width where it turns.
         let now = world_position(frame.camera, point, depth);
         let moved = now - world_position(frame.previous, point + m.xy, m.z);
-        // Less is the rounding of the host's motion: a surface at rest shall be shaded at the same point to the last bit, so
-        // that its gradient is exactly 0. 10⁻⁵ of the depth is a hundredth of a pixel.
-        shift = select(vec3(0.0), moved, dot(moved, moved) > 1e-10 * depth * depth);
-        which = vec4(record.xy, textureLoad(guide_previous, previous_pixel(record), 0).xy);
+        let q = previous_pixel(record);
+        let before = textureLoad(guide_previous, q, 0).xy;
+        let seen = world_position(frame.previous, sample_point(frame.previous, vec2<f32>(q)), bitcast<f32>(before.y));
+        shift = select(moved, vec3(0.0), rests(now, moved, seen, point, m, unpack_normal(record.z)));
+        which = vec4(record.xy, before);
     }
     let texel = vec2(2 * stratum.x, stratum.y);
     textureStore(repeats_out, texel, which);

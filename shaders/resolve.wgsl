@@ -34,9 +34,6 @@ const LIMIT: f32 = 3.4e38;
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) {
-        return;
-    }
 #ifdef UNFILTERED
     let reflected = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
 #else

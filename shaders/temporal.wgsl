@@ -18,14 +18,12 @@
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
-@group(0) @binding(2) var guide_previous: texture_2d<u32>;
 @group(0) @binding(3) var motion: texture_2d<f32>;
 #ifdef OBJECTS
 @group(0) @binding(4) var object: texture_2d<u32>;
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
 #endif
 @group(0) @binding(6) var radiance: texture_2d<u32>;
-@group(0) @binding(7) var history_previous: texture_2d<u32>;
 #ifdef FEEDBACK
 @group(0) @binding(8) var feedback_previous: texture_2d<u32>;
 @group(0) @binding(9) var feedback_out: texture_storage_2d<rg32uint, write>;
@@ -43,6 +41,40 @@
 @group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
 // What the spatial filter reads.
 @group(0) @binding(14) var color_out: texture_storage_2d<rgba32uint, write>;
+
+// What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had, and with
+// FEEDBACK three are written.
+#ifdef STORAGE_READS
+@group(0) @binding(7) var history_previous: texture_storage_2d<rgba32uint, read>;
+
+fn history_at(tap: vec2<i32>) -> vec4<u32> {
+    return textureLoad(history_previous, tap);
+}
+#ifdef FEEDBACK
+@group(0) @binding(2) var guide_previous: texture_2d<u32>;
+
+fn guide_at(tap: vec2<i32>) -> vec2<u32> {
+    return textureLoad(guide_previous, tap, 0).xy;
+}
+#else
+@group(0) @binding(2) var guide_previous: texture_storage_2d<rg32uint, read>;
+
+fn guide_at(tap: vec2<i32>) -> vec2<u32> {
+    return textureLoad(guide_previous, tap).xy;
+}
+#endif
+#else
+@group(0) @binding(2) var guide_previous: texture_2d<u32>;
+@group(0) @binding(7) var history_previous: texture_2d<u32>;
+
+fn guide_at(tap: vec2<i32>) -> vec2<u32> {
+    return textureLoad(guide_previous, tap, 0).xy;
+}
+
+fn history_at(tap: vec2<i32>) -> vec4<u32> {
+    return textureLoad(history_previous, tap, 0);
+}
+#endif
 
 struct History {
     color: vec3<f32>,
@@ -70,9 +102,9 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
     let there = 0u;
 #endif
     let valid = bilinear >= 1e-4 && inside(place)
-        && same_surface(origin, tap, textureLoad(guide_previous, tap, 0).xy, there);
+        && same_surface(origin, tap, guide_at(tap), there);
     let weight = select(0.0, bilinear, valid);
-    let h = textureLoad(history_previous, tap, 0);
+    let h = history_at(tap);
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback_previous, tap, 0).xy);
     let mean = bitcast<f32>(h.x);
@@ -88,7 +120,7 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
     (*sum).weight += weight;
 }
 
-fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin) -> History {
+fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> History {
     let point = clamp(vec2<f32>(pixel) + m.xy, vec2(-1e6), vec2(1e6));
     let corner = floor(point + 1e-4);
     let f = max(point - corner, vec2(0.0));
@@ -100,7 +132,7 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin) -> History {
     add_tap(&sum, origin, base + vec2(1, 1), f.x * f.y);
     // Where nothing of the surface lies under the 2×2 taps, look one pixel farther. The loop's length depends on that, as a
     // software adapter executes a branch either way, but not a loop.
-    let searched = select(0, 16, sum.weight <= 0.01);
+    let searched = select(0, 16, seen && sum.weight <= 0.01);
     if searched > 0 {
         sum = Taps(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0.0);
     }
@@ -165,7 +197,7 @@ fn add_stratum(
 // What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is on the
 // surface or none of their paths found light, which tells nothing. To this comes a part of what the same strata saw on any
 // surface: a thin pillar has few samples, and a change that all of them missed would stay for a whole history.
-fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32) -> Change {
+fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Change {
     let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;
     let base = vec2<i32>(floor(grid));
@@ -174,7 +206,7 @@ fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32) -> Change {
         add_stratum(&sum, base + vec2(i & 1, i >> 1u), grid, here, normal, depth);
     }
     // A loop of length 0 elsewhere, see `reproject`.
-    let searched = select(0, 16, sum.weight <= 1e-4 || sum.gradient.y <= 0.0);
+    let searched = select(0, 16, seen && (sum.weight <= 1e-4 || sum.gradient.y <= 0.0));
     if searched > 0 {
         sum = Strata(vec4(0.0), 0.0, vec2(0.0), vec2(0.0));
     }
@@ -210,9 +242,6 @@ fn lambda_at(pixel: vec2<u32>) -> f32 {
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) {
-        return;
-    }
     let g = textureLoad(guide, pixel, 0).xy;
     let depth = bitcast<f32>(g.y);
     // A miss is carried on like a surface, and what comes of it is not kept.
@@ -228,7 +257,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
         let here = 0u;
 #endif
-        history = reproject(pixel, m, origin_of(vec2<f32>(pixel), m, normal, here));
+        history = reproject(pixel, m, origin_of(vec2<f32>(pixel), m, normal, here), seen);
     }
     var color = sample;
     var mean = l;
@@ -241,7 +270,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var variance_before = history.variance;
         var kept = history.length;
 #ifdef GRADIENT
-        let change = change_at(pixel, normal, depth);
+        let change = change_at(pixel, normal, depth, seen);
         lambda = change.lambda;
 #ifdef HISTORY_RATIO
         before *= change.ratio.xyz;

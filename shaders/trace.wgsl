@@ -6,14 +6,19 @@
 
 #import asvgf::frame::{frame, direction, sample_point, inside, Camera}
 #import asvgf::random::{seed_of, uniform_float}
-#import asvgf::traverse::{Ray, closest_hit, occluded}
+#import asvgf::ray::Ray
+#ifdef FEW_TRIANGLES
+#import asvgf::few_triangles::{prepare_traversal, closest_hit, occluded}
+#else
+#import asvgf::traverse::{closest_hit, occluded}
+#endif
 #import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at, offset_origin}
 #import asvgf::material::{Surface, surface_at, demodulation, scattering, sample_direction}
 #import asvgf::light::{environment_radiance, environment_density, emitter_density}
 #ifdef LIGHTS
 #import asvgf::light::sample_light
 #endif
-#import asvgf::scene::{NO_TRIANGLE, triangle_word, instance_numbers, scene}
+#import asvgf::scene::{NO_TRIANGLE, geometry_word, instance_numbers, scene}
 #import asvgf::color::{luminance, sanitize}
 #import asvgf::packing::pack_rgb
 #ifdef RESHADE
@@ -119,7 +124,7 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
         s = surface_at(v, t, hit.barycentrics, next);
 #ifdef EMITTERS
 #ifndef LIGHT_SAMPLES_ONLY
-        let emitter = triangle_word(hit.triangle * 3u + 1u).w;
+        let emitter = geometry_word(hit.triangle * 3u + 1u).w;
         if emitter > 0u {
 #ifdef SCATTERED_RAYS_ONLY
             let weight = 1.0;
@@ -149,6 +154,9 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+#ifdef FEW_TRIANGLES
+    prepare_traversal();
+#endif
     let pixel = vec2<i32>(id.xy);
     if !inside(pixel) {
         return;

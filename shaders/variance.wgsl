@@ -38,9 +38,6 @@ fn mean_luminance(h: vec4<u32>) -> f32 {
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
-    if !inside(pixel) {
-        return;
-    }
     let h = textureLoad(history, pixel, 0);
     let length = unpack_length(h.w);
     if length <= 0.0 || length >= SHORT {

@@ -4,7 +4,12 @@
 // one. The motion is exact: the same barycentric weights on the previous frame's vertices, through the previous camera.
 
 #import asvgf::frame::{frame, direction, project, sample_point, inside}
-#import asvgf::traverse::{Ray, closest_hit}
+#import asvgf::ray::Ray
+#ifdef FEW_TRIANGLES
+#import asvgf::few_triangles::{prepare_traversal, closest_hit}
+#else
+#import asvgf::traverse::{closest_hit}
+#endif
 #import asvgf::surface::{Visible, visibility_id, triangle_now, triangle_before, barycentrics, at, geometric_normal, shading_normal}
 #import asvgf::scene::NO_TRIANGLE
 #import asvgf::packing::pack_normal
@@ -20,6 +25,9 @@
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+#ifdef FEW_TRIANGLES
+    prepare_traversal();
+#endif
     let pixel = vec2<i32>(id.xy);
     if !inside(pixel) {
         return;

@@ -13,7 +13,7 @@ use crate::host;
 use crate::passes::{self, Pass};
 #[cfg(feature = "path-tracer")]
 use crate::plan::Feature;
-use crate::plan::{Grid, Plan, Slot, Step};
+use crate::plan::{Grid, Plan, Slot, Step, Traversal};
 #[cfg(feature = "path-tracer")]
 use crate::scene::GpuScene;
 use crate::settings::Settings;
@@ -23,8 +23,8 @@ use crate::{Error, View, ViewOptions};
 use std::collections::HashMap;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
-    BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, Features,
-    Limits, Queue, TextureFormat, TextureUsages, TextureView,
+    BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, DeviceType,
+    Features, Limits, Queue, TextureFormat, TextureUsages, TextureView,
 };
 
 /// Spacing of the strides of the à-trous iterations in their buffer: the default `min_uniform_buffer_offset_alignment`.
@@ -81,6 +81,8 @@ pub struct Denoiser {
     kernels: HashMap<Permutation, Kernel>,
     pub(crate) textures: Textures,
     strides: Buffer,
+    /// The adapter is the CPU.
+    on_cpu: bool,
     pub(crate) timing: Option<Timing>,
     pub(crate) counters: Option<Counters>,
     /// A host's frame that waits for its light.
@@ -164,6 +166,7 @@ impl Denoiser {
                 contents: &strides,
                 usage: BufferUsages::UNIFORM,
             }),
+            on_cpu: device.adapter_info().device_type == DeviceType::Cpu,
             timing: descriptor.timing.then(|| Timing::new(queue)),
             counters: descriptor.diagnostics.then(Counters::default),
             begun: None,
@@ -274,8 +277,8 @@ impl Denoiser {
         }
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let camera = frame.camera.uniform(self.size)?;
-        let plan = Plan::path_traced(&scene.traits(), &self.settings, format);
-        self.compile(device, &plan.steps, scene.stack())?;
+        let plan = self.adapt(Plan::path_traced(&scene.traits(), &self.settings, format));
+        self.compile(device, &plan.steps, scene.traversal())?;
         self.abandon();
         let lost = self.textures.fit(device, self.size, &plan);
         let version = scene.version();
@@ -295,14 +298,8 @@ impl Denoiser {
         self.parity ^= 1;
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         let given = |name: &str| scene.resource(name);
-        let resources = Resources {
-            given: &given,
-            stack: scene.stack(),
-            target: Some(target),
-            uniform: &uniform,
-            counts: None,
-            show: None,
-        };
+        let resources =
+            Resources { traversal: scene.traversal(), target: Some(target), ..Resources::new(&given, &uniform) };
         self.record(device, encoder, &plan.steps, &resources, &mut queries, &mut after)?;
         if let (Some(timing), Some(queries)) = (&self.timing, queries) {
             timing.end(device, encoder, queries);
@@ -335,20 +332,15 @@ impl Denoiser {
         };
         let step = passes::view::step(view, &last.plan, self.settings.mode, format);
         let result = step.and_then(|step| {
-            self.compile(device, std::slice::from_ref(&step), 0)?;
+            self.compile(device, std::slice::from_ref(&step), Traversal::default())?;
             let show = device.create_buffer_init(&BufferInitDescriptor {
                 label: Some("asvgf view"),
                 contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
                 usage: BufferUsages::UNIFORM,
             });
-            let resources = Resources {
-                given: &|_| None,
-                stack: 0,
-                target: Some(target),
-                uniform: &last.uniform,
-                counts: None,
-                show: Some(&show),
-            };
+            let none = |_: &str| None;
+            let resources =
+                Resources { target: Some(target), show: Some(&show), ..Resources::new(&none, &last.uniform) };
             self.dispatch(device, encoder, &step, &resources, None)
         });
         self.last = Some(last);
@@ -408,18 +400,23 @@ impl Denoiser {
         Ok(format)
     }
 
-    fn permutation(step: &Step, stack: u32) -> Permutation {
+    fn permutation(step: &Step, traversal: Traversal) -> Permutation {
         Permutation {
             pass: step.pass,
             features: step.features,
-            stack: if step.pass.traces() { stack } else { 4 },
+            traversal: if step.pass.traces() { traversal } else { Traversal::default() },
             view: if step.pass == Pass::View { step.iteration } else { 0 },
         }
     }
 
-    pub(crate) fn compile(&mut self, device: &Device, steps: &[Step], stack: u32) -> Result<(), Error> {
+    /// The plan as it suits the adapter.
+    pub(crate) fn adapt(&self, plan: Plan) -> Plan {
+        if self.on_cpu { plan.on_cpu() } else { plan }
+    }
+
+    pub(crate) fn compile(&mut self, device: &Device, steps: &[Step], traversal: Traversal) -> Result<(), Error> {
         for step in steps {
-            let permutation = Self::permutation(step, stack);
+            let permutation = Self::permutation(step, traversal);
             if !self.kernels.contains_key(&permutation) {
                 let kernel = Kernel::new(device, &mut self.shaders.0, permutation)?;
                 self.kernels.insert(permutation, kernel);
@@ -436,7 +433,7 @@ impl Denoiser {
         resources: &Resources<'a>,
         timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) -> Result<(), Error> {
-        let permutation = Self::permutation(step, resources.stack);
+        let permutation = Self::permutation(step, resources.traversal);
         let missing = |name: String| Error::Shader {
             shader: step.pass.name(),
             features: format!("{:?}", step.features),
@@ -489,12 +486,17 @@ impl Denoiser {
 pub(crate) struct Resources<'a> {
     /// The scene's, or the host's views, by name.
     pub given: &'a dyn Fn(&str) -> Option<BindingResource<'a>>,
-    /// Slots of the traversal's stack.
-    pub stack: u32,
+    pub traversal: Traversal,
     pub uniform: &'a Buffer,
     pub target: Option<&'a TextureView>,
     pub counts: Option<&'a Buffer>,
     pub show: Option<&'a Buffer>,
+}
+
+impl<'a> Resources<'a> {
+    pub fn new(given: &'a dyn Fn(&str) -> Option<BindingResource<'a>>, uniform: &'a Buffer) -> Self {
+        Self { given, traversal: Traversal::default(), uniform, target: None, counts: None, show: None }
+    }
 }
 
 fn check_size(device: &Device, size: [u32; 2]) -> Result<(), Error> {

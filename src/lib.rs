@@ -1,12 +1,38 @@
 //! Real-time denoising of path-traced images: adaptive spatiotemporal variance-guided filtering (A-SVGF) in WGSL compute
 //! shaders on [`wgpu`].
 //!
-//! A [`Denoiser`] holds the pipelines and the history of one view; a `scene::GpuScene` holds what is traced. Both record into
-//! the host's encoder and never submit, wait, print or own the device. A device with `Limits::default()` and no features is
-//! enough.
+//! A [`Denoiser`] holds the pipelines and the history of one view. It filters the frames of the host's own renderer, in two
+//! calls a frame ([`Denoiser::begin_frame`], [`Denoiser::denoise`]), or those that it traces itself of a `scene::GpuScene`. Both
+//! record into the host's encoder and never submit, wait, print or own the device. A device with `Limits::default()` and no
+//! features is enough.
+//!
+//! With a renderer of one's own:
+//! ```no_run
+//! use asvgf::{Denoiser, Error, Matrices, Shading, Surfaces, wgpu};
+//!
+//! # struct Images { depth: wgpu::TextureView, normal: wgpu::TextureView, motion: wgpu::TextureView,
+//! #     albedo: wgpu::TextureView, radiance: wgpu::TextureView, target: wgpu::TextureView }
+//! fn frame(
+//!     denoiser: &mut Denoiser,
+//!     device: &wgpu::Device,
+//!     encoder: &mut wgpu::CommandEncoder,
+//!     images: &Images,
+//!     camera: Matrices,
+//!     index: u32,
+//!     trace: impl FnOnce(&mut wgpu::CommandEncoder, Option<asvgf::Reshade>),
+//! ) -> Result<(), Error> {
+//!     let surfaces = Surfaces::new(camera, index, &images.depth, &images.normal, &images.motion);
+//!     // One pixel of each 3×3 is to repeat a path of the last frame: `RESHADE_WGSL` tells the host's shader which.
+//!     let reshade = denoiser.begin_frame(device, encoder, &surfaces)?;
+//!     trace(encoder, reshade);
+//!     let shading = Shading { albedo: Some(&images.albedo), ..Shading::new(&images.radiance, &images.target) };
+//!     denoiser.denoise(device, encoder, &shading)
+//! }
+//! ```
 #![cfg_attr(
     all(feature = "path-tracer", feature = "gltf"),
     doc = r#"
+With the path tracer:
 ```no_run
 use asvgf::{Camera, Denoiser, DenoiserDescriptor, Frame, scene, wgpu};
 
@@ -33,8 +59,8 @@ fn frames(
 )]
 //!
 //! # Conventions
-//! Right-handed world, +Y up, metres; linear Rec. 709 radiance; pixels from the upper left, x right, y down; linear depth along
-//! the view; motion is previous − current position in pixels, without the jitter.
+//! Linear Rec. 709 radiance; pixels from the upper left, x right, y down; linear depth along the view; motion is previous −
+//! current position in pixels, without the jitter. The path tracer's world is right-handed, +Y up, in metres; a host's may be any.
 #![deny(missing_docs)]
 #![warn(missing_debug_implementations)]
 

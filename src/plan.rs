@@ -30,6 +30,8 @@ pub struct Traits {
     pub environment: bool,
     /// Some material is shown unlit.
     pub unlit: bool,
+    /// So few triangles, on an adapter that is the CPU, that testing each is faster than a tree.
+    pub few_triangles: bool,
 }
 
 /// What a host's views have. Everything that is absent is left out of the shaders.
@@ -80,6 +82,8 @@ pub enum Feature {
     Specular,
     /// Opacity test during traversal.
     AlphaMask,
+    /// Every triangle is tested instead of a tree.
+    FewTriangles,
     /// Any light to sample.
     Lights,
     /// Emitting triangles.
@@ -122,6 +126,8 @@ pub enum Feature {
     Unfiltered,
     /// The target shows the mean over frames.
     Accumulate,
+    /// What is read at many taps is bound as storage: on an adapter that is the CPU, half the cost of a texture fetch.
+    StorageReads,
     /// The target is rgba16float instead of rgba32float.
     TargetF16,
     /// The target is rgba8unorm and shows a tone-mapped picture.
@@ -161,7 +167,7 @@ pub enum Feature {
 }
 
 impl Feature {
-    const ALL: [Self; 44] = {
+    const ALL: [Self; 46] = {
         use Feature::*;
         [
             Instanced,
@@ -169,6 +175,7 @@ impl Feature {
             ShadingNormals,
             Specular,
             AlphaMask,
+            FewTriangles,
             Lights,
             Emitters,
             PunctualLights,
@@ -190,6 +197,7 @@ impl Feature {
             LocalLinearFit,
             Unfiltered,
             Accumulate,
+            StorageReads,
             TargetF16,
             TargetPicture,
             Albedo,
@@ -272,6 +280,28 @@ impl FromIterator<Feature> for Features {
 impl fmt::Debug for Features {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_set().entries(self.iter()).finish()
+    }
+}
+
+/// How rays find triangles: numbers that the shaders which follow rays are compiled with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Traversal {
+    /// Down the trees.
+    Tree {
+        /// Slots of the traversal's stack.
+        stack: u32,
+    },
+    /// By testing each, see [`Feature::FewTriangles`].
+    Every {
+        /// How many there are, a multiple of 8.
+        triangles: u32,
+    },
+}
+
+impl Default for Traversal {
+    fn default() -> Self {
+        Self::Tree { stack: 4 }
     }
 }
 
@@ -398,6 +428,25 @@ pub struct Step {
     pub bindings: Vec<(&'static str, Slot)>,
 }
 
+impl Step {
+    /// The same step for an adapter that is the CPU, see [`Feature::StorageReads`].
+    pub(crate) fn on_cpu(mut self) -> Self {
+        let reads = match self.pass {
+            Pass::GradientPairsFilter | Pass::GradientFilter | Pass::Temporal | Pass::Atrous => true,
+            #[cfg(feature = "path-tracer")]
+            Pass::Trace => true,
+            // With instances it writes as many storage textures as there may be.
+            #[cfg(feature = "path-tracer")]
+            Pass::Visibility => !self.features.has(Feature::Instanced),
+            _ => false,
+        };
+        if reads {
+            self.features = self.features.with(Feature::StorageReads);
+        }
+        self
+    }
+}
+
 /// What to run in a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
@@ -478,6 +527,11 @@ impl Plan {
         self.color = Some(Image::Color((filter.iterations % 2) as u8));
     }
 
+    /// The same plan for an adapter that is the CPU.
+    pub(crate) fn on_cpu(self) -> Self {
+        Self { steps: self.steps.into_iter().map(Step::on_cpu).collect(), ..self }
+    }
+
     /// The images that the steps use, each once, and whether the previous frame's is used too.
     pub fn images(&self) -> Vec<(Image, bool)> {
         let slots = || self.steps.iter().flat_map(|s| &s.bindings).map(|(_, slot)| *slot);
@@ -502,6 +556,7 @@ fn traced_features(traits: &Traits, settings: &Settings) -> Features {
         (ShadingNormals, traits.shading_normals),
         (Specular, traits.specular),
         (AlphaMask, traits.alpha_mask),
+        (FewTriangles, traits.few_triangles),
         (Lights, lights),
         (Emitters, traits.emitters),
         (PunctualLights, traits.punctual_lights),

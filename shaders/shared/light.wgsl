@@ -1,6 +1,6 @@
 #define_import_path asvgf::light
 
-#import asvgf::scene::{scene, lights, texels, Light}
+#import asvgf::scene::{scene, load_light, texels}
 #import asvgf::surface::{Visible, Triangle, triangle_now, at}
 #import asvgf::color::luminance
 #import asvgf::material::{PI, surface_at}
@@ -29,7 +29,8 @@ struct LightSample {
 fn choose_light(u: f32) -> u32 {
     let scaled = u * f32(scene.light_count);
     let entry = min(u32(scaled), scene.light_count - 1u);
-    return select(lights[entry].alias_index, entry, scaled - f32(entry) < lights[entry].threshold);
+    let light = load_light(entry);
+    return select(light.alias_index, entry, scaled - f32(entry) < light.threshold);
 }
 
 fn environment_texel(direction: vec3<f32>) -> u32 {
@@ -60,13 +61,13 @@ fn environment_density(radiance: vec3<f32>) -> f32 {
 // Density with which `sample_light` finds this point of an emitter: choice · distance² / (area · cosine).
 fn emitter_density(light: u32, t: Triangle, direction: vec3<f32>, distance: f32) -> f32 {
     let area_normal = 0.5 * cross(t.b - t.a, t.c - t.a);
-    return lights[light].pmf * distance * distance / max(abs(dot(area_normal, direction)), 1e-30);
+    return load_light(light).pmf * distance * distance / max(abs(dot(area_normal, direction)), 1e-30);
 }
 
 #ifdef LIGHTS
 fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
     let index = choose_light(choice);
-    let light = lights[index];
+    let light = load_light(index);
     var s: LightSample;
 #ifdef EMITTERS
     if light.kind == EMITTER {

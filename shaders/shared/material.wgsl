@@ -1,6 +1,6 @@
 #define_import_path asvgf::material
 
-#import asvgf::scene::{materials, triangle_word, TWO_SIDED_EMITTER, UNLIT}
+#import asvgf::scene::{load_material, geometry_word, TWO_SIDED_EMITTER, UNLIT}
 #import asvgf::surface::{Visible, Triangle, at, geometric_normal, shading_normal, is_front}
 #import asvgf::color::luminance
 #import asvgf::packing::round_to_f16
@@ -28,22 +28,22 @@ struct Surface {
 }
 
 fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f32>) -> Surface {
-    let m = triangle_word(v.row * 3u).w;
-    var base = materials[m].base_color.xyz;
-    var emission = materials[m].emissive;
-    var metallic = materials[m].metallic;
-    var roughness = materials[m].roughness;
+    let m = load_material(geometry_word(v.row * 3u).w);
+    var base = m.base_color.xyz;
+    var emission = m.emissive;
+    var metallic = m.metallic;
+    var roughness = m.roughness;
 #ifdef TEXTURES
-    let base_texture = materials[m].base_color_texture;
+    let base_texture = m.base_color_texture;
     if exists(base_texture) {
         base *= sample_texture(base_texture, v.row, weights, true).xyz;
     }
-    let emissive_texture = materials[m].emissive_texture;
+    let emissive_texture = m.emissive_texture;
     if exists(emissive_texture) {
         emission *= sample_texture(emissive_texture, v.row, weights, true).xyz;
     }
 #ifdef SPECULAR
-    let metallic_roughness_texture = materials[m].metallic_roughness_texture;
+    let metallic_roughness_texture = m.metallic_roughness_texture;
     if exists(metallic_roughness_texture) {
         let texel = sample_texture(metallic_roughness_texture, v.row, weights, false);
         roughness *= texel.y;
@@ -51,7 +51,7 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     }
 #endif
 #endif
-    let flags = materials[m].flags;
+    let flags = m.flags;
     if (flags & TWO_SIDED_EMITTER) == 0u && !is_front(t, v, ray_direction) {
         emission = vec3(0.0);
     }
@@ -67,7 +67,7 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     s.emission = emission;
 #ifdef SPECULAR
     s.diffuse = base * (1.0 - metallic);
-    s.reflectance = mix(vec3(materials[m].specular), base, metallic) * select(1.0, 0.0, (flags & UNLIT) != 0u);
+    s.reflectance = mix(vec3(m.specular), base, metallic) * select(1.0, 0.0, (flags & UNLIT) != 0u);
     // Below this width a lobe is narrower than a float resolves.
     s.alpha = max(roughness * roughness, 1e-3);
 #else

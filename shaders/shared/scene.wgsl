@@ -4,7 +4,7 @@
 // builds, placements for this and the previous frame, surfaces and lights.
 
 struct Scene {
-    // Texel of `nodes` at which the instances' records begin.
+    // Texel of `geometry` at which the instances' records begin.
     instances: u32,
     instance_count: u32,
     light_count: u32,
@@ -22,19 +22,25 @@ struct Scene {
     environment_density: f32,
     // Grid of the boxes of the one tree, or of the top level.
     grid_base: vec3<f32>,
+    // Where rays start: the root of the one tree, or of the top level.
+    root: u32,
     grid_step: vec3<f32>,
 }
 
 @group(1) @binding(0) var<uniform> scene: Scene;
-// Trees, and with INSTANCED before them the top level and the instances' records: a row of texels folded into a texture, as
-// texture fetches of four words are faster than buffer reads on every adapter that was tried.
-@group(1) @binding(1) var nodes: texture_2d<u32>;
-// The visibility lookup table: three texels per triangle, a vertex and one word each: material, emitter number + 1, unused.
-@group(1) @binding(2) var triangles: texture_2d<u32>;
+// The visibility lookup table (three texels per triangle, a vertex and one word each: material, emitter number + 1, unused); with
+// INSTANCED the top level and the instances' records; trees. A row of texels folded into a texture, as texture fetches of four
+// words are faster than buffer reads on every adapter that was tried.
+#ifdef STORAGE_READS
+@group(1) @binding(1) var geometry: texture_storage_2d<rgba32uint, read>;
+#else
+@group(1) @binding(1) var geometry: texture_2d<u32>;
+#endif
 // Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
-@group(1) @binding(5) var<storage, read> materials: array<Material>;
-@group(1) @binding(6) var<storage, read> lights: array<Light>;
+// Materials and lights, the structs below texel by texel.
+@group(1) @binding(5) var materials: texture_2d<u32>;
+@group(1) @binding(6) var lights: texture_2d<u32>;
 // RGBA8 texels of all images; the environment's radiances and alias table as f32 bits.
 @group(1) @binding(7) var<storage, read> texels: array<u32>;
 
@@ -95,12 +101,55 @@ struct Light {
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
 // Width of the folded textures, as in src/scene/folded.rs.
-fn node_word(i: u32) -> vec4<u32> {
-    return textureLoad(nodes, vec2(i & 4095u, i >> 12u), 0);
+fn geometry_word(i: u32) -> vec4<u32> {
+#ifdef STORAGE_READS
+    return textureLoad(geometry, vec2(i & 4095u, i >> 12u));
+#else
+    return textureLoad(geometry, vec2(i & 4095u, i >> 12u), 0);
+#endif
 }
 
-fn triangle_word(i: u32) -> vec4<u32> {
-    return textureLoad(triangles, vec2(i & 4095u, i >> 12u), 0);
+fn material_word(i: u32) -> vec4<u32> {
+    return textureLoad(materials, vec2(i & 4095u, i >> 12u), 0);
+}
+
+fn light_word(i: u32) -> vec4<u32> {
+    return textureLoad(lights, vec2(i & 4095u, i >> 12u), 0);
+}
+
+fn texture_use(first: u32) -> TextureUse {
+    let image = material_word(first);
+    let row_u = bitcast<vec4<f32>>(material_word(first + 1u));
+    return TextureUse(image.x, image.y, image.z, image.w, row_u, bitcast<vec4<f32>>(material_word(first + 2u)));
+}
+
+// What of it is not used is not fetched.
+fn load_material(i: u32) -> Material {
+    let first = i * 12u;
+    let emission = material_word(first + 1u);
+    let numbers = bitcast<vec4<f32>>(material_word(first + 2u));
+    return Material(
+        bitcast<vec4<f32>>(material_word(first)),
+        bitcast<vec3<f32>>(emission.xyz), emission.w,
+        numbers.x, numbers.y, numbers.z, numbers.w,
+        texture_use(first + 3u), texture_use(first + 6u), texture_use(first + 9u),
+    );
+}
+
+fn load_light(i: u32) -> Light {
+    let first = i * 5u;
+    let choice = light_word(first);
+    let place = light_word(first + 1u);
+    let axis = light_word(first + 2u);
+    let strength = bitcast<vec4<f32>>(light_word(first + 3u));
+    let spot = bitcast<vec2<f32>>(light_word(first + 4u).xy);
+    return Light(
+        choice.x, choice.y, bitcast<f32>(choice.z), bitcast<f32>(choice.w),
+        bitcast<vec3<f32>>(place.xyz), place.w,
+        bitcast<vec3<f32>>(axis.xyz), axis.w,
+        strength.xyz, strength.w,
+        spot.x, spot.y, 0u, 0u,
+    );
 }
 
 // An affine map as three rows.
@@ -126,9 +175,9 @@ fn transform_normal(inverse: Placement, n: vec3<f32>) -> vec3<f32> {
 fn instance_record(instance: u32, part: u32) -> Placement {
     let first = scene.instances + instance * 12u + part * 3u;
     return Placement(
-        bitcast<vec4<f32>>(node_word(first)),
-        bitcast<vec4<f32>>(node_word(first + 1u)),
-        bitcast<vec4<f32>>(node_word(first + 2u)),
+        bitcast<vec4<f32>>(geometry_word(first)),
+        bitcast<vec4<f32>>(geometry_word(first + 1u)),
+        bitcast<vec4<f32>>(geometry_word(first + 2u)),
     );
 }
 
@@ -147,11 +196,11 @@ fn previous_object_to_world(instance: u32) -> Placement {
 // Grid of the boxes of the instance's tree: where it begins, and its step.
 fn instance_grid(instance: u32) -> mat2x3<f32> {
     let first = scene.instances + instance * 12u + 9u;
-    return mat2x3(bitcast<vec3<f32>>(node_word(first).xyz), bitcast<vec3<f32>>(node_word(first + 1u).xyz));
+    return mat2x3(bitcast<vec3<f32>>(geometry_word(first).xyz), bitcast<vec3<f32>>(geometry_word(first + 1u).xyz));
 }
 
 // Root node of the mesh's tree; the instance's first number in the visibility buffer; its first light; its mesh's first row
 // of the lookup table, doubled, plus 1 where the placement mirrors.
 fn instance_numbers(instance: u32) -> vec4<u32> {
-    return node_word(scene.instances + instance * 12u + 11u);
+    return geometry_word(scene.instances + instance * 12u + 11u);
 }

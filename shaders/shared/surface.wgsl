@@ -1,6 +1,6 @@
 #define_import_path asvgf::surface
 
-#import asvgf::scene::{scene, triangle_word, attributes, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, NO_TRIANGLE}
+#import asvgf::scene::{scene, geometry_word, attributes, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, NO_TRIANGLE}
 #import asvgf::packing::unpack_octahedral
 
 // A point of the scene as the visibility buffer names it.
@@ -48,9 +48,9 @@ struct Triangle {
 
 fn stored_triangle(row: u32) -> Triangle {
     return Triangle(
-        bitcast<vec3<f32>>(triangle_word(row * 3u).xyz),
-        bitcast<vec3<f32>>(triangle_word(row * 3u + 1u).xyz),
-        bitcast<vec3<f32>>(triangle_word(row * 3u + 2u).xyz),
+        bitcast<vec3<f32>>(geometry_word(row * 3u).xyz),
+        bitcast<vec3<f32>>(geometry_word(row * 3u + 1u).xyz),
+        bitcast<vec3<f32>>(geometry_word(row * 3u + 2u).xyz),
     );
 }
 

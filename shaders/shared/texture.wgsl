@@ -1,6 +1,6 @@
 #define_import_path asvgf::texture
 
-#import asvgf::scene::{scene, texels, attributes, materials, triangle_word, TextureUse}
+#import asvgf::scene::{scene, texels, attributes, load_material, geometry_word, TextureUse}
 
 // Images lie in one storage buffer, as no GPU is sure to have arrays of differently sized textures.
 
@@ -61,17 +61,16 @@ fn exists(image: TextureUse) -> bool {
 
 // Whether an alpha mask cuts this point of a triangle away.
 fn is_hole(row: u32, barycentrics: vec2<f32>) -> bool {
-    let material = triangle_word(row * 3u).w;
-    let cutoff = materials[material].cutoff;
-    if cutoff <= 0.0 {
+    let material = load_material(geometry_word(row * 3u).w);
+    if material.cutoff <= 0.0 {
         return false;
     }
-    var opacity = materials[material].base_color.w;
+    var opacity = material.base_color.w;
 #ifdef TEXTURES
-    let image = materials[material].base_color_texture;
+    let image = material.base_color_texture;
     if exists(image) {
         opacity *= sample_texture(image, row, barycentrics, false).w;
     }
 #endif
-    return opacity < cutoff;
+    return opacity < material.cutoff;
 }

@@ -1,29 +1,13 @@
 #define_import_path asvgf::traverse
 
-#import asvgf::scene::{scene, node_word, triangle_word, NO_TRIANGLE}
+#import asvgf::scene::{scene, geometry_word, NO_TRIANGLE}
+#import asvgf::ray::{Ray, Hit, MISS}
 #ifdef INSTANCED
 #import asvgf::scene::{world_to_object, transform_point, transform_vector, instance_numbers, instance_grid}
 #endif
 #ifdef ALPHA_MASK
 #import asvgf::texture::is_hole
 #endif
-
-struct Ray {
-    origin: vec3<f32>,
-    direction: vec3<f32>,
-}
-
-struct Hit {
-    distance: f32,
-    // Row of the visibility lookup table (`NO_TRIANGLE` if nothing was hit), and whose it is.
-    triangle: u32,
-    instance: u32,
-    // Barycentric weights of the second and the third vertex.
-    barycentrics: vec2<f32>,
-}
-
-// A distance that means a miss.
-const MISS: f32 = 3.0e38;
 
 // Möller and Trumbore 1997. Returns distance, u, v; a distance of `MISS` where there is no hit in (0, limit).
 fn intersect(origin: vec3<f32>, direction: vec3<f32>, a: vec3<f32>, edge_b: vec3<f32>, edge_c: vec3<f32>, limit: f32) -> vec3<f32> {
@@ -71,9 +55,9 @@ fn enter_box(s: Slabs, child: vec4<u32>, limit: f32) -> f32 {
 }
 
 fn intersect_triangle(origin: vec3<f32>, direction: vec3<f32>, triangle: u32, limit: f32) -> vec3<f32> {
-    let a = bitcast<vec3<f32>>(triangle_word(triangle * 3u).xyz);
-    let edge_b = bitcast<vec3<f32>>(triangle_word(triangle * 3u + 1u).xyz) - a;
-    let edge_c = bitcast<vec3<f32>>(triangle_word(triangle * 3u + 2u).xyz) - a;
+    let a = bitcast<vec3<f32>>(geometry_word(triangle * 3u).xyz);
+    let edge_b = bitcast<vec3<f32>>(geometry_word(triangle * 3u + 1u).xyz) - a;
+    let edge_c = bitcast<vec3<f32>>(geometry_word(triangle * 3u + 2u).xyz) - a;
     return intersect(origin, direction, a, edge_b, edge_c, limit);
 }
 
@@ -94,8 +78,7 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
     var stack: array<u32, #{STACK_SIZE}>;
     stack[0] = NOTHING;
     var depth = 1u;
-    // The root.
-    var current = 0u;
+    var current = scene.root;
     var origin = ray.origin;
     var direction = ray.direction;
     var boxes = slabs(origin, direction, scene.grid_base, scene.grid_step);
@@ -104,8 +87,8 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
 #endif
     loop {
         while current < LEAF {
-            let left_child = node_word(current * 2u);
-            let right_child = node_word(current * 2u + 1u);
+            let left_child = geometry_word(current * 2u);
+            let right_child = geometry_word(current * 2u + 1u);
             let left = enter_box(boxes, left_child, hit.distance);
             let right = enter_box(boxes, right_child, hit.distance);
             let swap = right < left;
@@ -169,6 +152,7 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
     }
     return hit;
 }
+
 fn closest_hit(ray: Ray) -> Hit {
     return traverse(ray, MISS, false);
 }

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::passes::Pass;
-use crate::plan::Features;
+use crate::plan::{Features, Traversal};
 use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor, ShaderDefValue};
 use std::collections::HashMap;
 use wgpu::naga::Module;
@@ -23,7 +23,11 @@ const SHARED: &[(&str, &str)] = &[
     #[cfg(feature = "path-tracer")]
     ("texture", include_str!("../../shaders/shared/texture.wgsl")),
     #[cfg(feature = "path-tracer")]
+    ("ray", include_str!("../../shaders/shared/ray.wgsl")),
+    #[cfg(feature = "path-tracer")]
     ("traverse", include_str!("../../shaders/shared/traverse.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("few_triangles", include_str!("../../shaders/shared/few_triangles.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("surface", include_str!("../../shaders/shared/surface.wgsl")),
     #[cfg(feature = "path-tracer")]
@@ -39,8 +43,8 @@ const SHARED: &[(&str, &str)] = &[
 pub(crate) struct Permutation {
     pub pass: Pass,
     pub features: Features,
-    /// STACK_SIZE, in shaders that traverse.
-    pub stack: u32,
+    /// STACK_SIZE or FEW_TRIANGLES, in shaders that follow rays.
+    pub traversal: Traversal,
     /// VIEW, in the shader of views.
     pub view: u32,
 }
@@ -67,10 +71,13 @@ impl Shaders {
 
     /// As [`Shaders::compose`], from another source than the pass's own.
     pub fn compose_source(&mut self, source: &str, permutation: Permutation) -> Result<Module, Error> {
-        let Permutation { pass, features, stack, view } = permutation;
+        let Permutation { pass, features, traversal, view } = permutation;
         let mut defs: HashMap<String, ShaderDefValue> =
             features.iter().map(|f| (f.define(), ShaderDefValue::Bool(true))).collect();
-        defs.insert("STACK_SIZE".into(), ShaderDefValue::UInt(stack));
+        match traversal {
+            Traversal::Tree { stack } => defs.insert("STACK_SIZE".into(), ShaderDefValue::UInt(stack)),
+            Traversal::Every { triangles } => defs.insert("FEW_TRIANGLES".into(), ShaderDefValue::UInt(triangles)),
+        };
         defs.insert("VIEW".into(), ShaderDefValue::UInt(view));
         let descriptor =
             NagaModuleDescriptor { source, file_path: pass.name(), shader_defs: defs, ..Default::default() };

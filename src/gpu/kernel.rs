@@ -157,11 +157,17 @@ fn binding_type(module: &Module, variable: &naga::GlobalVariable) -> Option<Bind
                 view_dimension: TextureViewDimension::D2,
                 multisampled: false,
             }),
-            TypeInner::Image { class: ImageClass::Storage { format, .. }, .. } => Some(BindingType::StorageTexture {
-                access: StorageTextureAccess::WriteOnly,
-                format: texture_format(format)?,
-                view_dimension: TextureViewDimension::D2,
-            }),
+            TypeInner::Image { class: ImageClass::Storage { format, access }, .. } => {
+                Some(BindingType::StorageTexture {
+                    access: if access.contains(StorageAccess::LOAD) {
+                        StorageTextureAccess::ReadOnly
+                    } else {
+                        StorageTextureAccess::WriteOnly
+                    },
+                    format: texture_format(format)?,
+                    view_dimension: TextureViewDimension::D2,
+                })
+            }
             _ => None,
         },
     }

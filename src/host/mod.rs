@@ -34,7 +34,8 @@ pub struct Surfaces<'a> {
     /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether it is right.
     pub motion: &'a TextureView,
     /// The linear depth that the surface point had in the previous frame's camera, in the formats of `depth`. Without it points are
-    /// taken as not moving in depth, which holds for all that only the camera moves.
+    /// taken as not moving in depth, which holds for all that only the camera moves. With re-shading, points that move are placed by
+    /// it: take 32 bits there, as 16 put them 5·10⁻⁴ of the depth off their surface.
     pub previous_depth: Option<&'a TextureView>,
     /// Number of the object: two that touch are not mixed in time. First channel of `r8uint`, `r16uint`, `r32uint`, `rg32uint`,
     /// `rgba32uint`, `r16float` or `r32float`, …; only told apart, so any distinct numbers will do.
@@ -62,6 +63,19 @@ pub struct Shading<'a> {
     pub lambda: Option<Lambda<'a>>,
     /// Where linear radiance goes: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
     pub target: &'a TextureView,
+}
+
+impl<'a> Surfaces<'a> {
+    /// The least: without `previous_depth` and `instance`.
+    pub fn new(
+        camera: impl Into<Viewpoint>,
+        index: u32,
+        depth: &'a TextureView,
+        normal: &'a TextureView,
+        motion: &'a TextureView,
+    ) -> Self {
+        Self { camera: camera.into(), index, depth, normal, motion, previous_depth: None, instance: None }
+    }
 }
 
 impl<'a> Shading<'a> {

@@ -7,7 +7,7 @@ use crate::gpu::counts::Counters;
 use crate::gpu::frame::Moment;
 use crate::gpu::timing::FrameQueries;
 use crate::passes::Pass;
-use crate::plan::{Feature, HostTraits, Image, Plan};
+use crate::plan::{Feature, HostTraits, Image, Plan, Traversal};
 use crate::settings::{Gradient, Mode};
 use wgpu::{BindingResource, Buffer, CommandEncoder, Device, TextureFormat};
 
@@ -86,9 +86,9 @@ impl Denoiser {
         let mut traits = HostTraits { diagnostics: self.counters.is_some(), ..Default::default() };
         views::surfaces(&mut traits, surfaces, self.size)?;
         // What the light's views will have changes neither this half nor which of its images outlive the frame.
-        let plan = Plan::hosted(&traits, &self.settings, TextureFormat::Rgba32Float);
+        let plan = self.adapt(Plan::hosted(&traits, &self.settings, TextureFormat::Rgba32Float));
         let steps = &plan.steps[..plan.surface_steps()];
-        self.compile(device, steps, 0)?;
+        self.compile(device, steps, Traversal::default())?;
         self.abandon();
         if self.textures.grow(device, self.size, &plan) {
             self.history = false;
@@ -108,8 +108,7 @@ impl Denoiser {
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         self.parity ^= 1;
         let host = |name: &str| surfaces.resource(name);
-        let resources =
-            Resources { given: &host, stack: 0, uniform: &uniform, target: None, counts: counts.as_ref(), show: None };
+        let resources = Resources { counts: counts.as_ref(), ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
         let image = |image| self.textures.now(image, self.parity).cloned();
         let reshade = match (image(Image::Guide), image(Image::Repeats)) {
@@ -152,9 +151,9 @@ impl Denoiser {
         let format = self.check_target(shading.target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let mut traits = begun.traits;
         views::shading(&mut traits, shading, self.size, &self.settings)?;
-        let plan = Plan::hosted(&traits, &self.settings, format);
+        let plan = self.adapt(Plan::hosted(&traits, &self.settings, format));
         let steps = &plan.steps[plan.surface_steps()..];
-        self.compile(device, steps, 0)?;
+        self.compile(device, steps, Traversal::default())?;
         let Some(Begun { mut moment, mut uniform, counts, mut queries, .. }) = self.begun.take() else {
             return Err(Error::NotBegun);
         };
@@ -167,14 +166,8 @@ impl Denoiser {
             uniform = self.frame_uniform(device, &moment);
         }
         let host = |name: &str| shading.resource(name);
-        let resources = Resources {
-            given: &host,
-            stack: 0,
-            uniform: &uniform,
-            target: Some(shading.target),
-            counts: counts.as_ref(),
-            show: None,
-        };
+        let target = Some(shading.target);
+        let resources = Resources { counts: counts.as_ref(), target, ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
         if let (Some(timing), Some(queries)) = (&self.timing, queries) {
             timing.end(device, encoder, queries);

@@ -123,7 +123,8 @@ impl Pass {
 
 /// What a shader that follows rays through the scene can have compiled in.
 #[cfg(feature = "path-tracer")]
-const GEOMETRY: &[Feature] = &[Feature::Instanced, Feature::Textures, Feature::ShadingNormals, Feature::AlphaMask];
+const GEOMETRY: &[Feature] =
+    &[Feature::Instanced, Feature::Textures, Feature::ShadingNormals, Feature::AlphaMask, Feature::FewTriangles];
 
 /// The bindings of a list whose features are all present.
 fn bindings<const N: usize>(

@@ -136,12 +136,12 @@ fn halve(triangles: &[Triangle], order: Vec<u32>) -> Bvh2 {
     Bvh2 { nodes, primitive_indices: order, ..Default::default() }
 }
 
-/// A tree over the world-space boxes of instances, one per leaf.
-pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]]) -> Tree {
+/// A tree over the world-space boxes of instances, one per leaf. Its nodes refer to each other from `first_node` on.
+pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]], first_node: u32) -> Tree {
     let boxes: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(b[0].into(), b[1].into())).collect();
     let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
     let bvh = builder::build_bvh2(&boxes, params, &mut Duration::default());
-    lay_out(&bvh, boxes.len(), 0, Leaves::Instances)
+    lay_out(&bvh, boxes.len(), first_node, Leaves::Instances)
 }
 
 fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tree {

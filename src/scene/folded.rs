@@ -30,14 +30,20 @@ pub(super) fn texture(device: &Device, queue: &Queue, label: &str, texels: &[Tex
         sample_count: 1,
         dimension: TextureDimension::D2,
         format: TextureFormat::Rgba32Uint,
-        usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+        usage: TextureUsages::TEXTURE_BINDING | TextureUsages::STORAGE_BINDING | TextureUsages::COPY_DST,
         view_formats: &[],
     };
     device.create_texture_with_data(queue, &descriptor, TextureDataOrder::LayerMajor, bytemuck::cast_slice(&data))
 }
 
-/// Records the replacement of the first rows of a texture, in the order of the encoder's commands.
-pub(super) fn replace(device: &Device, encoder: &mut CommandEncoder, texture: &Texture, texels: &[Texel]) {
+/// Records the replacement of rows of a texture from `first_row` on, in the order of the encoder's commands.
+pub(super) fn replace(
+    device: &Device,
+    encoder: &mut CommandEncoder,
+    texture: &Texture,
+    first_row: u32,
+    texels: &[Texel],
+) {
     let height = texels.len().div_ceil(WIDTH);
     let mut data = texels.to_vec();
     data.resize(WIDTH * height, Texel::default());
@@ -55,7 +61,12 @@ pub(super) fn replace(device: &Device, encoder: &mut CommandEncoder, texture: &T
                 rows_per_image: None,
             },
         },
-        TexelCopyTextureInfo { texture, mip_level: 0, origin: Origin3d::ZERO, aspect: TextureAspect::All },
+        TexelCopyTextureInfo {
+            texture,
+            mip_level: 0,
+            origin: Origin3d { x: 0, y: first_row, z: 0 },
+            aspect: TextureAspect::All,
+        },
         Extent3d { width: WIDTH as u32, height: height as u32, depth_or_array_layers: 1 },
     );
 }

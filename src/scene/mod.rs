@@ -15,6 +15,7 @@ mod validate;
 pub mod builtin;
 #[cfg(feature = "image")]
 mod environment;
+mod facets;
 #[cfg(feature = "gltf")]
 mod gltf;
 #[cfg(any(feature = "gltf", feature = "obj"))]

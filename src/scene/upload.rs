@@ -1,19 +1,20 @@
 //! The scene on the GPU, laid out as shaders/shared/scene.wgsl reads it.
 
 use super::bvh::{self, Quantization};
+use super::facets::{self, Facet};
 use super::folded::{self, Texel};
 use super::geometry::{self, Geometry};
 use super::lights::{self, AnalyticLight, GpuLight};
 use super::texels::{self, GpuTexture, Place};
 use super::{Alpha, Light, Material, Matrix, Pose, Scene, SceneError};
-use crate::plan::Traits;
+use crate::plan::{Traits, Traversal};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
-use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, Device, Queue, Texture, TextureView};
+use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, Device, DeviceType, Queue, Texture, TextureView};
 
 /// Lights that the Blinn–Phong gradient evaluates; the strongest are kept.
 const ANALYTIC_LIGHTS: usize = 64;
@@ -21,7 +22,8 @@ const ANALYTIC_LIGHTS: usize = 64;
 /// Slots of the traversal's stack: no tree that obvhs builds over real geometry comes near.
 const LARGEST_STACK: u32 = 64;
 
-/// Texels of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
+/// Texels of a row of the lookup table, of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
+const ROW_TEXELS: usize = 3;
 const NODE_TEXELS: usize = 2;
 const RECORD_TEXELS: usize = 12;
 
@@ -49,19 +51,22 @@ pub struct GpuScene {
     header: Header,
     buffers: Buffers,
     triangles: usize,
+    /// Corners of each row, where the scene has so few triangles that each is tested.
+    few: Option<Vec<[[f32; 3]; 3]>>,
 }
 
 #[derive(Debug)]
 struct Buffers {
     scene: Buffer,
-    nodes: (Texture, TextureView),
-    triangles: (Texture, TextureView),
+    geometry: (Texture, TextureView),
     attributes: Buffer,
     texels: Buffer,
-    materials: Buffer,
-    lights: Buffer,
+    materials: (Texture, TextureView),
+    lights: (Texture, TextureView),
     analytic_lights: Buffer,
     analytic_lights_previous: Buffer,
+    facets: Buffer,
+    facet_owners: Buffer,
 }
 
 /// A tree placed in the world.
@@ -71,6 +76,7 @@ struct Instance {
     node: Option<usize>,
     root: u32,
     first_row: u32,
+    row_count: u32,
     /// First number in the visibility buffer.
     first_id: u32,
     first_light: u32,
@@ -114,9 +120,9 @@ struct Header {
     uv1: u32,
     environment_density: f32,
     grid_base: [f32; 3],
-    pad: u32,
+    root: u32,
     grid_step: [f32; 3],
-    pad_too: u32,
+    pad: u32,
 }
 
 impl Header {
@@ -153,9 +159,15 @@ impl GpuScene {
         let groups = geometry::groups(scene, &pose.world);
         let instanced = groups.len() > 1 || !groups[0].nodes.is_empty();
         let instance_count: usize = groups.iter().map(|g| g.nodes.len().max(1)).sum();
-        // The top level and the records come first, in rows of their own, as they are replaced when something moves.
-        let top_texels = if instanced { top_level_texels(instance_count) } else { 0 };
-        let mut geometry = Geometry::new(scene, (top_texels / NODE_TEXELS) as u32);
+        // The lookup table comes first, then the top level and the records, in rows of their own as they are replaced when
+        // something moves, then the trees.
+        let table_texels = groups.iter().map(|g| g.faces.len() * ROW_TEXELS).sum::<usize>();
+        let (top, top_texels) = if instanced {
+            (table_texels.next_multiple_of(folded::WIDTH), top_level_texels(instance_count))
+        } else {
+            (table_texels.next_multiple_of(NODE_TEXELS), 0)
+        };
+        let mut geometry = Geometry::new(scene, ((top + top_texels) / NODE_TEXELS) as u32);
         let mut traits = geometry::traits(scene, geometry.layout);
         let mut instances = Vec::new();
         let mut light_table = Vec::new();
@@ -192,6 +204,7 @@ impl GpuScene {
                     node,
                     root: built.root,
                     first_row: built.first_row,
+                    row_count: group.faces.len() as u32,
                     first_id: next_id,
                     first_light,
                     bounds: built.bounds,
@@ -216,7 +229,8 @@ impl GpuScene {
         let images = texels::add_images(&scene.images, &mut words);
         let layout = geometry.layout;
         let mut header = Header {
-            instances: (top_level_nodes(instance_count) * NODE_TEXELS) as u32,
+            instances: (top + top_level_nodes(instance_count) * NODE_TEXELS) as u32,
+            root: (top / NODE_TEXELS) as u32,
             instance_count: instances.len() as u32,
             environment_light: u32::MAX,
             attribute_stride: layout.stride as u32,
@@ -242,21 +256,24 @@ impl GpuScene {
         traits.punctual_lights = !punctual.is_empty();
         traits.environment = environment_weight > 0.0;
         traits.emitters &= first_punctual > 0;
+        // Ids are numbered through all instances, so the next one is their triangles' number.
+        traits.few_triangles = device.adapter_info().device_type == DeviceType::Cpu
+            && next_id as usize <= facets::MOST
+            && !traits.alpha_mask;
         lights::assign_probabilities(&mut light_table, &powers);
         if let Some(light) = light_table.get(header.environment_light as usize) {
             header.environment_density = (f64::from(light.pmf) / environment_weight) as f32;
         }
         header.light_count = light_table.len() as u32;
 
-        let mut nodes = vec![Texel::default(); top_texels];
-        nodes.extend_from_slice(folded::texels(&geometry.nodes));
-        let rows = folded::texels(&geometry.rows);
-        check_texels(device, "triangles", rows.len())?;
-        check_texels(device, "tree nodes", nodes.len())?;
+        let mut texels = folded::texels(&geometry.rows).to_vec();
+        texels.resize(top + top_texels, Texel::default());
+        texels.extend_from_slice(folded::texels(&geometry.nodes));
+        check_texels(device, "triangles and their trees", texels.len())?;
         check_size(device, "images", size_of_val(words.as_slice()))?;
         check_size(device, "normals and texture coordinates", size_of_val(geometry.attributes.as_slice()))?;
         let empty = storage(device, "placeholder", &[0_u32; 4], 16);
-        let folded = |label, texels| {
+        let folded = |label: &str, texels: &[Texel]| {
             let texture = folded::texture(device, queue, label, texels);
             let view = texture.create_view(&Default::default());
             (texture, view)
@@ -282,23 +299,27 @@ impl GpuScene {
             buffers: Buffers {
                 scene: empty.clone(),
                 // Replaced below, once the placements are known.
-                nodes: folded("tree nodes", &[]),
-                triangles: folded("visibility lookup table", rows),
+                geometry: folded("geometry", &[]),
                 attributes: storage(device, "normals and texture coordinates", &geometry.attributes, 4),
                 texels: storage(device, "texels", &words, 4),
-                materials: empty.clone(),
-                lights: empty.clone(),
+                materials: folded("materials", &[]),
+                lights: folded("lights", &[]),
                 analytic_lights: empty.clone(),
-                analytic_lights_previous: empty,
+                analytic_lights_previous: empty.clone(),
+                facets: empty.clone(),
+                facet_owners: empty,
             },
             triangles: geometry.rows.len(),
+            few: traits.few_triangles.then(|| geometry.rows.iter().map(|row| row.map(corner)).collect()),
         };
-        let (top, depth) = this.placements(&pose);
-        nodes[..top.len()].copy_from_slice(&top);
-        this.buffers.nodes = folded("tree nodes", &nodes);
+        let (placements, depth) = this.placements(&pose);
+        texels[top..top + placements.len()].copy_from_slice(&placements);
+        this.buffers.geometry = folded("geometry", &texels);
         this.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&this.header), BufferUsages::UNIFORM);
-        this.upload_materials(device);
-        this.upload_lights(device);
+        this.buffers.materials = folded("materials", folded::texels(&this.materials()));
+        this.place_lights(device);
+        this.buffers.lights = folded("lights", folded::texels(&this.light_table));
+        this.upload_facets(device);
         this.buffers.analytic_lights_previous = this.buffers.analytic_lights.clone();
         // One slot for the bottom, one for the mark between the levels, one that is written before it is known to be kept.
         this.stack = (geometry.depth + depth + 3).next_multiple_of(4);
@@ -333,17 +354,20 @@ impl GpuScene {
         // One frame more than the movement lasts, so that what has stopped is where it was.
         let moves = before.world != pose.world;
         if self.traits.instanced && (moves || self.moved) {
-            let (top, _) = self.placements(&before);
+            let (placements, _) = self.placements(&before);
             self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
-            folded::replace(device, encoder, &self.buffers.nodes.0, &top);
+            let first_row = self.header.root / (folded::WIDTH / NODE_TEXELS) as u32;
+            folded::replace(device, encoder, &self.buffers.geometry.0, first_row, &placements);
+            self.upload_facets(device);
         }
         self.moved = moves;
         self.buffers.analytic_lights_previous = self.buffers.analytic_lights.clone();
         if changed {
             self.revision += 1;
-            self.upload_lights(device);
+            self.place_lights(device);
+            folded::replace(device, encoder, &self.buffers.lights.0, 0, folded::texels(&self.light_table));
             if before.emission != pose.emission {
-                self.upload_materials(device);
+                folded::replace(device, encoder, &self.buffers.materials.0, 0, folded::texels(&self.materials()));
             }
         }
         Ok(())
@@ -363,8 +387,9 @@ impl GpuScene {
     pub fn memory(&self) -> u64 {
         let b = &self.buffers;
         let texels = |t: &Texture| u64::from(t.width()) * u64::from(t.height()) * size_of::<Texel>() as u64;
-        let buffers = [&b.attributes, &b.texels, &b.materials, &b.lights];
-        texels(&b.nodes.0) + texels(&b.triangles.0) + buffers.iter().map(|b| b.size()).sum::<u64>()
+        let textures = [&b.geometry.0, &b.materials.0, &b.lights.0];
+        let buffers = [&b.attributes, &b.texels, &b.facets, &b.facet_owners];
+        textures.map(texels).iter().sum::<u64>() + buffers.iter().map(|b| b.size()).sum::<u64>()
     }
 
     /// Differs between any two scenes of a process, and after any change of the pose.
@@ -372,22 +397,33 @@ impl GpuScene {
         [self.id, self.revision]
     }
 
-    /// Slots that a traversal's stack needs.
-    pub(crate) fn stack(&self) -> u32 {
-        self.stack
+    /// How rays find their triangles.
+    pub(crate) fn traversal(&self) -> Traversal {
+        match self.few {
+            Some(_) => Traversal::Every { triangles: (self.buffers.facets.size() / size_of::<Facet>() as u64) as u32 },
+            None => Traversal::Tree { stack: self.stack },
+        }
+    }
+
+    /// Makes rays go down the trees whatever there is to test.
+    #[cfg(test)]
+    pub(crate) fn use_trees(&mut self) {
+        self.few = None;
+        self.traits.few_triangles = false;
     }
 
     /// What stands behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
     pub(crate) fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
         let b = &self.buffers;
         let buffer = match binding {
-            "nodes" => return Some(BindingResource::TextureView(&b.nodes.1)),
-            "triangles" => return Some(BindingResource::TextureView(&b.triangles.1)),
+            "geometry" => return Some(BindingResource::TextureView(&b.geometry.1)),
+            "materials" => return Some(BindingResource::TextureView(&b.materials.1)),
+            "lights" => return Some(BindingResource::TextureView(&b.lights.1)),
             "scene" => &b.scene,
             "attributes" => &b.attributes,
             "texels" => &b.texels,
-            "materials" => &b.materials,
-            "lights" => &b.lights,
+            "facets" => &b.facets,
+            "facet_owners" => &b.facet_owners,
             "analytic_lights" => &b.analytic_lights,
             "analytic_lights_previous" => &b.analytic_lights_previous,
             _ => return None,
@@ -402,20 +438,18 @@ impl GpuScene {
             self.header.set_grid(self.instances[0].grid);
             return (Vec::new(), 0);
         }
-        let place =
-            |pose: &Pose, i: &Instance| i.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
-        let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(place(&self.pose, i), i.bounds)).collect();
-        let top = bvh::over_instances(&boxes);
+        let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(i.placement(&self.pose), i.bounds)).collect();
+        let top = bvh::over_instances(&boxes, self.header.root);
         self.header.set_grid(top.grid);
         let mut texels = folded::texels(&top.nodes).to_vec();
         // As many nodes as any tree over these instances can have, so that the records stay where they are.
-        texels.resize(self.header.instances as usize, Texel::default());
+        texels.resize(top_level_nodes(self.instances.len()) * NODE_TEXELS, Texel::default());
         for instance in &self.instances {
-            let now = place(&self.pose, instance);
+            let now = instance.placement(&self.pose);
             let mirrored = u32::from(now.determinant() < 0.0);
             texels.extend(rows(now));
             texels.extend(rows(inverse(now)));
-            texels.extend(rows(place(before, instance)));
+            texels.extend(rows(instance.placement(before)));
             texels.push(padded(instance.grid.base));
             texels.push(padded(instance.grid.step));
             texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
@@ -423,10 +457,29 @@ impl GpuScene {
         (texels, top.depth)
     }
 
-    fn upload_materials(&mut self, device: &Device) {
+    /// The triangles of all instances in world space, where each of them is tested.
+    fn upload_facets(&mut self, device: &Device) {
+        let Some(corners) = &self.few else { return };
+        let (mut all, mut owners) = (Vec::new(), Vec::new());
+        for (number, instance) in self.instances.iter().enumerate() {
+            let placement = instance.placement(&self.pose);
+            for row in instance.first_row..instance.first_row + instance.row_count {
+                all.push(Facet::new(corners[row as usize], placement));
+                owners.push([row, number as u32, 0, 0]);
+            }
+        }
+        let count = facets::padded(all.len());
+        all.resize(count, Facet::default());
+        owners.resize(count, [0; 4]);
+        let uniform = |label, contents| buffer(device, label, contents, BufferUsages::UNIFORM);
+        self.buffers.facets = uniform("facets", bytemuck::cast_slice(&all));
+        self.buffers.facet_owners = uniform("owners of facets", bytemuck::cast_slice(&owners));
+    }
+
+    /// The materials as bright as they are in this pose.
+    fn materials(&self) -> Vec<GpuMaterial> {
         let texture = |t| texels::texture_use(t, &self.images);
-        let materials: Vec<GpuMaterial> = self
-            .materials
+        self.materials
             .iter()
             .zip(&self.pose.emission)
             .map(|(m, factor)| GpuMaterial {
@@ -444,11 +497,11 @@ impl GpuScene {
                 metallic_roughness_texture: texture(m.metallic_roughness_texture),
                 emissive_texture: texture(m.emissive_texture),
             })
-            .collect();
-        self.buffers.materials = storage(device, "materials", &materials, size_of::<GpuMaterial>());
+            .collect()
     }
 
-    fn upload_lights(&mut self, device: &Device) {
+    /// Puts the lights where they are in this pose.
+    fn place_lights(&mut self, device: &Device) {
         let mut analytic: Vec<AnalyticLight> =
             self.emitters.iter().map(|e| e.analytic(&self.materials, &self.pose)).collect();
         for (punctual, entry) in self.punctual.iter().zip(&mut self.light_table[self.first_punctual..]) {
@@ -462,8 +515,14 @@ impl GpuScene {
         let count = analytic.len() as u32;
         analytic.resize(analytic.len().max(1), AnalyticLight::default());
         analytic.iter_mut().for_each(|light| light.count = count);
-        self.buffers.lights = storage(device, "lights", &self.light_table, size_of::<GpuLight>());
         self.buffers.analytic_lights = storage(device, "analytic lights", &analytic, size_of::<AnalyticLight>());
+    }
+}
+
+impl Instance {
+    /// Where it stands in a pose.
+    fn placement(&self, pose: &Pose) -> Mat4 {
+        self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
     }
 }
 
@@ -546,6 +605,11 @@ fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -
     }
 }
 
+/// The vertex in a texel of the lookup table.
+fn corner(texel: Texel) -> [f32; 3] {
+    [texel[0], texel[1], texel[2]].map(f32::from_bits)
+}
+
 fn padded(v: [f32; 3]) -> Texel {
     [v[0].to_bits(), v[1].to_bits(), v[2].to_bits(), 0]
 }
@@ -586,7 +650,7 @@ mod tests {
     fn the_scene_lies_where_the_shaders_read_it() {
         let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_texels,
             environment_alias, environment_width, environment_height, attribute_stride, uv0 as "uv_first",
-            uv1 as "uv_second", environment_density, grid_base, grid_step);
+            uv1 as "uv_second", environment_density, grid_base, root, grid_step);
         assert_layout("Scene", header, size_of::<Header>());
         let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, specular, cutoff,
             base_color_texture, metallic_roughness_texture, emissive_texture);

@@ -44,8 +44,18 @@ impl Bench {
         }
     }
 
-    /// Runs a step on the images of its bindings; what is not given is zero. Returns the images that it wrote.
+    /// Runs a step on the images of its bindings; what is not given is zero. Returns the images that it wrote, which are the
+    /// same whether it reads textures or storage.
     pub fn run(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
+        let outputs = self.run_once(step, inputs);
+        let other = step.clone().on_cpu();
+        if other != *step {
+            assert!(outputs == self.run_once(&other, inputs), "{:?} with storage reads differs", step.pass);
+        }
+        outputs
+    }
+
+    fn run_once(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
         let gpu = gpu();
         let textures: BTreeMap<&str, Texture> =
             step.bindings.iter().map(|&(name, slot)| (name, self.texture(step, name, slot))).collect();
@@ -55,7 +65,8 @@ impl Bench {
         }
         let [frame, stride] =
             [bytemuck::bytes_of(&self.uniform()), &(1_i32 << step.iteration).to_le_bytes()].map(uniform);
-        let permutation = Permutation { pass: step.pass, features: step.features, stack: 4, view: 0 };
+        let permutation =
+            Permutation { pass: step.pass, features: step.features, traversal: Default::default(), view: 0 };
         let kernel = kernel(permutation);
         let views: BTreeMap<&str, _> = textures.iter().map(|(n, t)| (*n, t.create_view(&Default::default()))).collect();
         let resource = |name: &str| match name {

@@ -19,7 +19,7 @@ pub(super) fn compute(
 ) -> Vec<[f32; 4]> {
     let gpu = gpu();
     let device = &gpu.device;
-    let permutation = Permutation { pass, features, stack: 4, view: 0 };
+    let permutation = Permutation { pass, features, traversal: Default::default(), view: 0 };
     let module =
         Shaders::new().and_then(|mut s| s.compose_source(source, permutation)).unwrap_or_else(|e| panic!("{e}"));
     let module = device.create_shader_module(ShaderModuleDescriptor {

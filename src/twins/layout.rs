@@ -18,7 +18,7 @@ pub(crate) fn assert_layout(name: &str, fields: &[Field], size: usize) {
 
 /// As [`assert_layout`], in another shader.
 pub(crate) fn assert_layout_in(pass: Pass, features: Features, name: &str, fields: &[Field], size: usize) {
-    let permutation = Permutation { pass, features, stack: 16, view: 0 };
+    let permutation = Permutation { pass, features, traversal: Default::default(), view: 0 };
     let module = Shaders::new().and_then(|mut s| s.compose(permutation)).unwrap_or_else(|e| panic!("{e}"));
     let (members, span) = find(&module, name);
     assert_eq!(members, fields.iter().map(|&(n, at)| (n.to_owned(), at)).collect::<Vec<_>>(), "{name}");

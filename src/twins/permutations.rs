@@ -4,7 +4,7 @@
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::passes::{self, Pass};
-use crate::plan::{HostTraits, Plan, Step, Traits};
+use crate::plan::{Feature, HostTraits, Plan, Step, Traits, Traversal};
 use crate::scene::{GpuScene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
@@ -28,7 +28,9 @@ fn noop_device() -> (Device, Queue) {
 
 /// All combinations: at some 150 shaders a second they are checked in a quarter of a minute.
 fn traits() -> Vec<Traits> {
-    (0_u32..512)
+    (0_u32..1024)
+        // Where each triangle is tested, there is no alpha mask.
+        .filter(|bits| bits >> 4 & 1 == 0 || bits >> 9 & 1 == 0)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
             Traits {
@@ -41,6 +43,7 @@ fn traits() -> Vec<Traits> {
                 punctual_lights: bit(6),
                 environment: bit(7),
                 unlit: bit(8),
+                few_triangles: bit(9),
             }
         })
         .collect()
@@ -117,13 +120,19 @@ fn plans() -> Vec<(Plan, Mode)> {
                 filter: FilterSettings { gradient, ..Default::default() },
                 tracer: TracerSettings { sampling, ..Default::default() },
             };
-            plans.push((Plan::path_traced(&traits, &settings, target), mode));
+            let plan = Plan::path_traced(&traits, &settings, target);
+            if (sampling, gradient, mode) == (Sampling::Both, Gradient::Reshade, Mode::Denoise) {
+                plans.push((plan.clone().on_cpu(), mode));
+            }
+            plans.push((plan, mode));
         }
     }
     for (instanced, filter) in product(&[false, true], &filters(&GRADIENTS)) {
         let settings = Settings { filter, ..Settings::adaptive() };
         let traits = Traits { instanced, ..Default::default() };
-        plans.push((Plan::path_traced(&traits, &settings, TextureFormat::Rgba32Float), Mode::Denoise));
+        let plan = Plan::path_traced(&traits, &settings, TextureFormat::Rgba32Float);
+        plans.push((plan.clone().on_cpu(), Mode::Denoise));
+        plans.push((plan, Mode::Denoise));
     }
     plans
 }
@@ -157,7 +166,12 @@ fn steps() -> BTreeMap<Permutation, Step> {
     let mut steps = BTreeMap::new();
     let mut add = |step: Step| {
         let view = if step.pass == Pass::View { step.iteration } else { 0 };
-        steps.entry(Permutation { pass: step.pass, features: step.features, stack: 32, view }).or_insert(step);
+        let traversal = if step.features.has(Feature::FewTriangles) {
+            Traversal::Every { triangles: 24 }
+        } else {
+            Traversal::Tree { stack: 32 }
+        };
+        steps.entry(Permutation { pass: step.pass, features: step.features, traversal, view }).or_insert(step);
     };
     for (plan, mode) in plans().into_iter().chain(host_plans()) {
         for (view, format) in product(&View::ALL, &formats) {
@@ -203,14 +217,17 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
 }
 
 #[test]
-fn every_stack_size_compiles() {
+fn every_size_of_stack_and_of_few_triangles_compiles() {
     let (device, queue) = noop_device();
     let scene = GpuScene::new(&device, &queue, &builtin::scene("pillars", "all").unwrap()).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
-    let plan = Plan::path_traced(&scene.traits(), &Settings::adaptive(), TextureFormat::Rgba32Float);
-    for stack in [4, 64] {
+    let stacks = [4, 64].map(|stack| Traversal::Tree { stack });
+    let counts = [8, 16, 24, 32, 40, 48, 56, 64].map(|triangles| Traversal::Every { triangles });
+    for traversal in stacks.into_iter().chain(counts) {
+        let traits = Traits { few_triangles: matches!(traversal, Traversal::Every { .. }), ..scene.traits() };
+        let plan = Plan::path_traced(&traits, &Settings::adaptive(), TextureFormat::Rgba32Float);
         for step in plan.steps.iter().filter(|s| matches!(s.pass, Pass::Visibility | Pass::Trace)) {
-            let permutation = Permutation { pass: step.pass, features: step.features, stack, view: 0 };
+            let permutation = Permutation { pass: step.pass, features: step.features, traversal, view: 0 };
             check(&device, &scene, &mut shaders, permutation, step);
         }
     }

@@ -131,8 +131,10 @@ fn queries(triangles: &[[DVec3; 3]]) -> Vec<Query> {
 fn ask_gpu(scene: &GpuScene, queries: &[Query]) -> Vec<Answer> {
     let gpu = gpu();
     let device = &gpu.device;
-    let instanced = if scene.traits().instanced { Features::of(&[Feature::Instanced]) } else { Features::default() };
-    let permutation = Permutation { pass: Pass::Visibility, features: instanced, stack: scene.stack(), view: 0 };
+    let traits = scene.traits();
+    let features = [(Feature::Instanced, traits.instanced), (Feature::FewTriangles, traits.few_triangles)];
+    let features: Features = features.into_iter().filter(|(_, on)| *on).map(|(f, _)| f).collect();
+    let permutation = Permutation { pass: Pass::Visibility, features, traversal: scene.traversal(), view: 0 };
     let module = Shaders::new().and_then(|mut s| s.compose_source(include_str!("traversal.wgsl"), permutation));
     let module = module.unwrap_or_else(|e| panic!("{e}"));
     let used = used_bindings(&module).unwrap();
@@ -236,11 +238,25 @@ fn check(name: &str, scene: &Scene, pose: &Pose) {
         world.iter().map(|t| t.map(|p| Vec3A::from(p.as_vec3()))).map(|[v0, v1, v2]| Triangle { v0, v1, v2 }).collect();
     let bvh = builder::build_bvh2_from_tris(&narrow, BvhBuildParams::medium_build(), &mut Duration::default());
     let queries = queries(&world);
-    let answers = ask_gpu(&uploaded, &queries);
+    let mut expected = |query: &Query| if world.is_empty() { None } else { ask_obvhs(&bvh, &narrow, query) };
+    if uploaded.traits().few_triangles {
+        compare(&format!("{name}, each triangle"), &world, &queries, &mut expected, &ask_gpu(&uploaded, &queries));
+        uploaded.use_trees();
+    }
+    compare(name, &world, &queries, &mut expected, &ask_gpu(&uploaded, &queries));
+}
+
+fn compare(
+    name: &str,
+    world: &[[DVec3; 3]],
+    queries: &[Query],
+    expected: &mut dyn FnMut(&Query) -> Option<(usize, f64)>,
+    answers: &[Answer],
+) {
     let (mut hits, mut disputed) = (0, 0);
-    for (i, (query, answer)) in queries.iter().zip(&answers).enumerate() {
+    for (i, (query, answer)) in queries.iter().zip(answers).enumerate() {
         let what = format!("{name}, ray {i}");
-        let expected = if world.is_empty() { None } else { ask_obvhs(&bvh, &narrow, query) };
+        let expected = expected(query);
         hits += usize::from(expected.is_some());
         let (same_distance, same_triangle) = match (expected, answer.distance) {
             (None, None) => (true, true),
@@ -254,7 +270,7 @@ fn check(name: &str, scene: &Scene, pose: &Pose) {
         // Of surfaces that coincide, as the bottom of a block and the floor, either will do.
         disputed += usize::from(!same_distance);
         if !(same_distance && same_triangle) {
-            assert_right(query, answer, &world, &what);
+            assert_right(query, answer, world, &what);
         }
         // The weights lead to the point on the ray.
         if answer.distance.is_some() {
@@ -291,13 +307,13 @@ fn triangle_scene(positions: Vec<[f32; 3]>) -> Scene {
     }
 }
 
-/// Triangles of many sizes anywhere.
-fn soup(count: usize) -> Vec<[f32; 3]> {
+/// Triangles of many sizes (powers of 10 between these) anywhere.
+fn soup(count: usize, sizes: [f64; 2]) -> Vec<[f32; 3]> {
     let mut random = Random(3);
     (0..count)
         .flat_map(|_| {
             let centre = [0; 3].map(|_| random.between(-5.0, 5.0));
-            let size = 10.0_f64.powf(random.between(-2.0, 0.3));
+            let size = 10.0_f64.powf(random.between(sizes[0], sizes[1]));
             [0; 3].map(|_| {
                 let d = random.direction();
                 [0, 1, 2].map(|i| (centre[i] + size * d[i]) as f32)
@@ -319,13 +335,13 @@ fn scenes_of_two_levels_that_have_moved() {
 
 #[test]
 fn a_soup_of_triangles() {
-    let scene = triangle_scene(soup(5000));
+    let scene = triangle_scene(soup(5000, [-2.0, 0.3]));
     check("soup", &scene, &scene.pose(None, 0.0));
 }
 
 #[test]
 fn a_thousand_instances_mirrored_and_stretched() {
-    let mut scene = triangle_scene(soup(12));
+    let mut scene = triangle_scene(soup(12, [-2.0, 0.3]));
     scene.nodes.clear();
     let mut random = Random(11);
     for _ in 0..1000 {
@@ -342,6 +358,14 @@ fn a_thousand_instances_mirrored_and_stretched() {
     let pose = scene.pose(None, 0.0);
     assert!(GpuScene::new(&gpu().device, &gpu().queue, &scene).unwrap().traits().instanced);
     check("instances", &scene, &pose);
+}
+
+#[test]
+fn as_many_triangles_as_are_tested_one_by_one_and_one_more() {
+    for count in [3, 8, 9, 64, 65] {
+        let scene = triangle_scene(soup(count, [0.0, 0.6]));
+        check(&format!("{count} triangles"), &scene, &scene.pose(None, 0.0));
+    }
 }
 
 #[test]

@@ -1,6 +1,11 @@
 // Rays through a scene, for the test of the traversal.
 
-#import asvgf::traverse::{Ray, closest_hit, occluded}
+#import asvgf::ray::Ray
+#ifdef FEW_TRIANGLES
+#import asvgf::few_triangles::{prepare_traversal, closest_hit, occluded}
+#else
+#import asvgf::traverse::{closest_hit, occluded}
+#endif
 #import asvgf::surface::{Visible, triangle_now}
 #import asvgf::scene::NO_TRIANGLE
 
@@ -11,6 +16,9 @@
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+#ifdef FEW_TRIANGLES
+    prepare_traversal();
+#endif
     let i = 2u * id.x;
     if i >= arrayLength(&rays) {
         return;

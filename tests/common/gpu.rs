@@ -30,20 +30,28 @@ pub fn gpu() -> &'static Gpu {
 impl Gpu {
     /// A device of its own.
     pub fn new(flags: InstanceFlags) -> Self {
+        Self::with(flags, Features::empty()).expect("every adapter offers no features")
+    }
+
+    /// A device of its own with more than the least, where the adapter has it.
+    pub fn with(flags: InstanceFlags, features: Features) -> Option<Self> {
         let instance =
             Instance::new(InstanceDescriptor { flags, ..InstanceDescriptor::new_without_display_handle_from_env() });
         let adapter = match pollster::block_on(instance.request_adapter(&Default::default())) {
             Ok(adapter) => adapter,
             Err(e) => panic!("{NO_ADAPTER}: {e}"),
         };
+        if !adapter.features().contains(features) {
+            return None;
+        }
         let (device, queue) = pollster::block_on(adapter.request_device(&DeviceDescriptor {
             label: Some("test"),
-            required_features: Features::empty(),
+            required_features: features,
             required_limits: Limits::default(),
             ..Default::default()
         }))
         .expect("every adapter offers the default limits");
-        Self { device, queue }
+        Some(Self { device, queue })
     }
 
     /// Records and submits.

@@ -71,8 +71,7 @@ fn taken(depth: &TextureView, normal: &TextureView, motion: &TextureView) -> [Ve
     let radiance = image(Rgba32Float, &[[0.5; 4]; COUNT]);
     let target = super::target();
     gpu().submit(|encoder| {
-        let camera = Camera::default().into();
-        let surfaces = Surfaces { camera, index: 0, depth, normal, motion, previous_depth: None, instance: None };
+        let surfaces = Surfaces::new(Camera::default(), 0, depth, normal, motion);
         denoiser.begin_frame(&gpu().device, encoder, &surfaces).unwrap();
         denoiser.denoise(&gpu().device, encoder, &Shading::new(&radiance, &target)).unwrap();
     });

@@ -3,6 +3,7 @@
 mod cleaning;
 mod formats;
 mod levels;
+mod radiance;
 mod recording;
 mod refusals;
 mod renderer;

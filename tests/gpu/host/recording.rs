@@ -51,6 +51,27 @@ fn a_device_that_is_strict_about_webgpu_suffices() {
     assert!(there.iter().zip(&here[3]).all(|(a, b)| a[..3] == b[..]));
 }
 
+#[test]
+fn the_passes_of_both_calls_are_timed() {
+    let Some(gpu) = Gpu::with(InstanceFlags::default(), wgpu::Features::TIMESTAMP_QUERY) else { return };
+    let frames = recorded(Settings::adaptive());
+    let descriptor = DenoiserDescriptor { size: SIZE, timing: true, ..Default::default() };
+    let mut denoiser = Denoiser::new(&gpu.device, &gpu.queue, &descriptor).unwrap();
+    let target = gpu.target(SIZE, TextureFormat::Rgba32Float);
+    for frame in &frames[..2] {
+        let host = Uploaded::new(&gpu, frame);
+        gpu.submit(|encoder| record(&mut denoiser, &gpu, encoder, &host, &target));
+    }
+    gpu.wait();
+    for frame in &frames[..2] {
+        let times = denoiser.take_times().expect("a finished frame");
+        let planned: Vec<_> = denoiser.plan().unwrap().steps.iter().map(|s| s.pass.name()).collect();
+        assert_eq!(times.passes.iter().map(|(name, _)| *name).collect::<Vec<_>>(), planned);
+        assert_eq!(times.frame, frame.index);
+    }
+    assert!(denoiser.take_times().is_none());
+}
+
 /// The images of frames 4…7 after something was done to a denoiser that had frames 0…3.
 fn after(what: impl FnOnce(&mut Denoiser)) -> Vec<Vec<Rgb>> {
     let frames = recorded(Settings::adaptive());

@@ -18,7 +18,7 @@ struct Stage {
     denoiser: Denoiser,
     target: TextureView,
     index: u32,
-    /// Factor on the motion that is handed in.
+    /// Handed in instead of the renderer's own.
     motion: Option<TextureView>,
 }
 
@@ -39,21 +39,25 @@ impl Stage {
         gpu().submit(|encoder| {
             let scene = r.scene(now, before);
             r.draw(encoder, &scene);
-            let surfaces = Surfaces {
-                camera: now.matrices(SIZE).into(),
-                index: self.index,
-                depth: &r.depth,
-                normal: &r.normal,
-                motion: self.motion.as_ref().unwrap_or(&r.motion),
-                previous_depth: None,
-                instance: None,
-            };
+            let motion = self.motion.as_ref().unwrap_or(&r.motion);
+            let surfaces = Surfaces::new(now.matrices(SIZE), self.index, &r.depth, &r.normal, motion);
             let reshade = self.denoiser.begin_frame(&gpu().device, encoder, &surfaces).unwrap().unwrap();
             r.shade(encoder, &scene, &reshade);
             let shading = Shading { albedo: Some(&r.albedo), ..Shading::new(&r.radiance, &self.target) };
             self.denoiser.denoise(&gpu().device, encoder, &shading).unwrap();
         });
         self.index += 1;
+    }
+
+    /// As [`Stage::frame`], with what an rg16float motion would hold: the same frame is drawn once more to find it.
+    fn frame_in_16_bits(&mut self, now: &Moment, before: &Moment) {
+        let r = &self.renderer;
+        gpu().submit(|encoder| r.draw(encoder, &r.scene(now, before)));
+        let words: Vec<[f32; 2]> = bytemuck::pod_collect_to_vec(&gpu().read(r.motion.texture()));
+        let round = |x: f32| f32::from_bits((x.to_bits() + 0x1000) & 0xffff_e000);
+        let rounded: Vec<[f32; 2]> = words.iter().map(|m| m.map(round)).collect();
+        self.motion = Some(super::upload(gpu(), SIZE, &rounded));
+        self.frame(now, before);
     }
 
     fn view(&mut self, view: View) -> Vec<[f32; 3]> {
@@ -84,6 +88,17 @@ fn nothing_changed_is_exactly_nothing_whether_the_camera_moves_or_not() {
         // In twelve frames each pixel repeats a path at least once, and is not a new sample then.
         let longest = stage.largest(View::HistoryLength);
         assert!((10.0..12.0).contains(&longest), "walking: {walks}, {longest}");
+    }
+}
+
+#[test]
+fn a_motion_in_16_bits_costs_next_to_no_history() {
+    let mut stage = Stage::new();
+    for i in 0..12_u32 {
+        stage.frame_in_16_bits(&walking(4 * i), &walking(4 * i.saturating_sub(1)));
+        let lambda = stage.view(View::Lambda);
+        let mean = lambda.iter().map(|l| l[0]).sum::<f32>() / lambda.len() as f32;
+        assert!(mean < 1e-3, "frame {i}: {mean}");
     }
 }
 

@@ -1,0 +1,95 @@
+//! Radiance with and without its albedo and emission, and the modes without a filter.
+
+use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, replay, target, upload};
+use crate::common::gpu::gpu;
+use crate::common::statistics::Rgb;
+use asvgf::{Mode, Settings, Shading};
+
+/// A bright rectangle of emission.
+fn emission() -> Vec<Rgb> {
+    let inside = |i: u32| (10..20).contains(&(i % SIZE[0])) && (5..15).contains(&(i / SIZE[0]));
+    (0..SIZE[0] * SIZE[1]).map(|i| if inside(i) { [4.0, 2.0, 0.5] } else { [0.0; 3] }).collect()
+}
+
+/// Light times albedo plus emission.
+fn full(frame: &Recorded, emission: &[Rgb]) -> Vec<Rgb> {
+    let pixel = |i: usize| [0, 1, 2].map(|c| frame.light[i][c] * frame.albedo[i][c].max(1e-3) + emission[i][c]);
+    (0..emission.len()).map(pixel).collect()
+}
+
+#[test]
+fn the_full_image_and_its_parts_are_denoised_alike() {
+    let frames = recorded(Settings::adaptive());
+    let (mut whole, mut parts) = (denoiser(Settings::adaptive()), denoiser(Settings::adaptive()));
+    let [a, b] = [0; 2].map(|_| target());
+    let emitted = emission();
+    let glow = upload(gpu(), SIZE, &emitted);
+    for frame in &frames {
+        let host = Uploaded::new(gpu(), frame);
+        let image = upload(gpu(), SIZE, &full(frame, &emitted));
+        gpu().submit(|encoder| {
+            whole.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            let shading = Shading { emission: Some(&glow), demodulated: false, radiance: &image, ..host.shading(&a) };
+            whole.denoise(&gpu().device, encoder, &shading).unwrap();
+            parts.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            let shading = Shading { emission: Some(&glow), ..host.shading(&b) };
+            parts.denoise(&gpu().device, encoder, &shading).unwrap();
+        });
+        let found = difference(&colors(&a), &colors(&b));
+        // What is left of the light beside an emission 100 times as bright has lost two digits; and albedos are rounded to f16.
+        assert!(found[0] < 2e-2 && found[1] < 1e-3, "frame {}: {found:?}", frame.index);
+    }
+    // Emission bypasses the filter: it is as sharp as it came.
+    let dark = replay(&mut denoiser(Settings::adaptive()), &frames);
+    for (i, lit) in colors(&b).iter().enumerate() {
+        for c in 0..3 {
+            let added = lit[c] - dark[dark.len() - 1][i][c];
+            assert!((added - emitted[i][c]).abs() < 1e-4 * (1.0 + emitted[i][c]), "pixel {i}: {added}");
+        }
+    }
+}
+
+#[test]
+fn the_target_may_be_the_radiance() {
+    let frames = recorded(Settings::adaptive());
+    let (mut inside, mut apart) = (denoiser(Settings::adaptive()), denoiser(Settings::adaptive()));
+    for frame in &frames[..3] {
+        let host = Uploaded::new(gpu(), frame);
+        let usage = wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::STORAGE_BINDING
+            | wgpu::TextureUsages::COPY_DST
+            | wgpu::TextureUsages::COPY_SRC;
+        let both = gpu().texture(SIZE, wgpu::TextureFormat::Rgba32Float, usage);
+        let (view, other) = (both.create_view(&Default::default()), target());
+        let bytes: Vec<u8> =
+            frame.light.iter().flat_map(|c| [c[0], c[1], c[2], 1.0]).flat_map(f32::to_le_bytes).collect();
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * SIZE[0]), rows_per_image: None };
+        gpu().queue.write_texture(both.as_image_copy(), &bytes, layout, both.size());
+        gpu().submit(|encoder| {
+            inside.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            inside.denoise(&gpu().device, encoder, &Shading { radiance: &view, ..host.shading(&view) }).unwrap();
+            apart.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+            apart.denoise(&gpu().device, encoder, &host.shading(&other)).unwrap();
+        });
+        assert_eq!(colors(&view), colors(&other));
+    }
+}
+
+#[test]
+fn the_modes_without_a_filter_show_the_samples_and_their_mean() {
+    let frames = recorded(Settings::adaptive());
+    let noisy = replay(&mut denoiser(Settings { mode: Mode::Noisy, ..Settings::adaptive() }), &frames[..3]);
+    let none = vec![[0.0; 3]; frames[0].light.len()];
+    for (image, frame) in noisy.iter().zip(&frames) {
+        assert!(difference(image, &full(frame, &none))[0] < 1e-2, "frame {}", frame.index);
+    }
+    // A mean is one of frames that are seen alike.
+    let still: Vec<Recorded> = frames[..4].iter().map(|f| Recorded { camera: frames[0].camera, ..f.clone() }).collect();
+    let means = replay(&mut denoiser(Settings { mode: Mode::Reference, ..Settings::adaptive() }), &still);
+    let mean: Vec<Rgb> = (0..none.len())
+        .map(|i| [0, 1, 2].map(|c| still.iter().map(|f| full(f, &none)[i][c]).sum::<f32>() / 4.0))
+        .collect();
+    assert!(difference(&means[3], &mean)[0] < 1e-2);
+    let moving = replay(&mut denoiser(Settings { mode: Mode::Reference, ..Settings::adaptive() }), &frames[..3]);
+    assert_eq!(moving, noisy, "the camera moves, so each frame is a mean of one");
+}
