@@ -77,6 +77,8 @@ mod gpu;
 mod host;
 #[cfg(feature = "image")]
 pub mod image_io;
+#[cfg(feature = "metrics")]
+pub mod metrics;
 mod passes;
 pub mod plan;
 #[cfg(feature = "path-tracer")]

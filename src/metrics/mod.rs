@@ -1,0 +1,41 @@
+//! How far an image is from the truth, and how a sequence behaves when the truth changes.
+//!
+//! Of one frame: [`rmse`], [`relative_mse`], [`psnr`], [`bias`], [`ssim`], [`flip`]. Of a sequence: [`flicker`], [`lag`],
+//! [`ghost_energy`]. Images are slices of linear colours, first row first. A [`Pair`] holds an image `a`, its reference `b`, and
+//! which pixels count; all of its sizes are checked once, when it is made.
+//!
+//! Sums are taken in `f64`. A mean over no pixels is NaN, and so is any mean over a NaN.
+
+mod display;
+mod error;
+mod flicker;
+mod flip;
+mod ghost;
+mod lag;
+mod motion;
+mod pair;
+mod pixelwise;
+mod ssim;
+
+pub use display::encode;
+pub use error::MetricError;
+pub use flicker::flicker;
+pub use flip::{Flip, PIXELS_PER_DEGREE, flip};
+pub use ghost::{ages, ghost_energy};
+pub use lag::{Lag, lag};
+pub use motion::origins;
+pub use pair::Pair;
+pub use pixelwise::{EPSILON, bias, psnr, relative_mse, rmse};
+pub use ssim::ssim;
+
+/// Relative luminance of linear Rec. 709 colour (ITU-R BT.709-6).
+fn luminance(color: [f32; 3]) -> f64 {
+    let [r, g, b] = color.map(f64::from);
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
+/// NaN of nothing.
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0_u64), |(sum, count), value| (sum + value, count + 1));
+    sum / count as f64
+}
