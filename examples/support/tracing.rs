@@ -33,6 +33,12 @@ impl<'a> Reference<'a> {
         Ok(Self { film: Film::new(gpu, size, settings)?, batches: 0 })
     }
 
+    /// The next moment is traced with the random numbers of the first.
+    #[allow(dead_code, reason = "only where references have to be the same in any order")]
+    pub fn rewind(&mut self) {
+        self.batches = 0;
+    }
+
     /// Traces `paths` per pixel of one moment, calling back after each batch with its paths.
     pub fn converge(
         &mut self,

@@ -1,0 +1,100 @@
+//! The command line of `report`.
+
+use crate::arguments::{Usage, Value};
+use crate::suite::Suite;
+use lexopt::ValueExt as _;
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+/// What `--help` prints.
+pub const HELP: &str = "\
+Measures error against run time, and writes tables, plots and pictures of it.
+
+Usage: cargo run --release --example report -- [OPTIONS]
+
+  --suite NAME          quick: three sequences and a choice of methods, in minutes on a
+                        software adapter; full: everything                      [quick]
+  --scene SCENE         only this scene: cornell, pillars, or a .gltf, .glb or .obj file
+                        with its first animation                    [the suite's scenes]
+  --size WxH            pixels                          [quick 96x54, full 640x360]
+  --budget MINUTES      measure no longer than about so long: repeats are dropped before
+                        methods, and the report says which                       [none]
+  --out DIR             folder for everything; made if missing           [target/report]
+  --baseline NAME=DIR   also score another denoiser's frames. DIR/SEQUENCE/ holds
+                        denoised_0022.exr, …, and may hold times.txt with the
+                        milliseconds of each frame, one a line. May be repeated
+  -h, --help            print this
+
+Writes report.md, report.csv, report.json, plots (.svg and .png) and comparisons (.png).
+What was measured is kept in DIR/runs, so that a report that was interrupted goes on where
+it stopped; references are kept in target/references.
+Exit status: 0 done, 1 failed, 2 wrong usage.
+";
+
+/// What the command line asks for.
+pub enum Request {
+    Help,
+    Report(Command),
+}
+
+pub struct Command {
+    pub suite: Suite,
+    /// In minutes.
+    pub budget: Option<f64>,
+    pub out: PathBuf,
+    pub baselines: Vec<Baseline>,
+}
+
+/// Another denoiser's output.
+pub struct Baseline {
+    pub name: String,
+    pub folder: PathBuf,
+}
+
+/// Reads the arguments after the program's name.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
+    let mut suite = Suite::quick();
+    let (mut scene, mut size) = (None, None);
+    let (mut budget, mut out, mut baselines) = (None, PathBuf::from("target/report"), Vec::new());
+    let mut parser = lexopt::Parser::from_args(arguments);
+    while let Some(argument) = parser.next()? {
+        let name = match argument {
+            lexopt::Arg::Short('h') | lexopt::Arg::Long("help") => return Ok(Request::Help),
+            lexopt::Arg::Long(name @ ("suite" | "scene" | "size" | "budget" | "out" | "baseline")) => name.to_owned(),
+            _ => return Err(argument.unexpected().into()),
+        };
+        if name == "out" {
+            out = parser.value()?.into();
+            continue;
+        }
+        let value = Value { text: parser.value()?.string()?, option: name };
+        match value.option.as_str() {
+            "suite" => suite = value.one_of(&[("quick", Suite::quick as fn() -> Suite), ("full", Suite::full)])?(),
+            "scene" => scene = Some(value.text),
+            "size" => size = Some(pixels(&value)?),
+            "budget" => budget = Some(value.number(0.1..=1e5)?.into()),
+            _ => baselines.push(baseline(&value)?),
+        }
+    }
+    if let Some(scene) = scene {
+        suite.only(&scene);
+    }
+    suite.size = size.unwrap_or(suite.size);
+    Ok(Request::Report(Command { suite, budget, out, baselines }))
+}
+
+fn pixels(value: &Value) -> Result<[u32; 2], Usage> {
+    let sides = value.text.split_once(['x', '×']).map(|(width, height)| [width, height].map(|side| side.parse().ok()));
+    match sides {
+        // SSIM's window is 11 pixels wide; larger than 4K no film fits.
+        Some([Some(width @ 11..=4096), Some(height @ 11..=4096)]) => Ok([width, height]),
+        _ => Err(value.wrong("must be WIDTHxHEIGHT, as in 96x54, 11 to 4096 each")),
+    }
+}
+
+fn baseline(value: &Value) -> Result<Baseline, Usage> {
+    match value.text.split_once('=') {
+        Some((name, folder)) if !name.is_empty() => Ok(Baseline { name: name.into(), folder: folder.into() }),
+        _ => Err(value.wrong("must be NAME=DIR")),
+    }
+}

@@ -1,0 +1,57 @@
+//! Names for what was computed, from everything that decides it.
+
+use std::fmt::{self, Debug, Write};
+use std::path::Path;
+
+/// FNV-1a (Fowler, Noll, Vo), 64 bits: the same on every machine and with every compiler, unlike the standard library's.
+#[derive(Clone, Copy)]
+pub struct Hash(u64);
+
+impl Hash {
+    /// Of the shaders: other shaders, other images.
+    pub fn of_shaders() -> std::io::Result<Self> {
+        let mut hash = Self(0xcbf2_9ce4_8422_2325);
+        hash.folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders"))?;
+        Ok(hash)
+    }
+
+    /// Of this, and then of what its debug output shows.
+    pub fn and(mut self, thing: &impl Debug) -> Self {
+        // Nothing is kept of the text, however long: the scenes' textures are in it.
+        let _ = write!(self, "{thing:?};");
+        self
+    }
+
+    fn folder(&mut self, folder: &Path) -> std::io::Result<()> {
+        let mut paths: Vec<_> =
+            std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?;
+        paths.sort();
+        for path in paths {
+            if path.is_dir() {
+                self.folder(&path)?;
+            } else {
+                self.bytes(&std::fs::read(&path)?);
+            }
+        }
+        Ok(())
+    }
+
+    fn bytes(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+impl Write for Hash {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.bytes(text.as_bytes());
+        Ok(())
+    }
+}
+
+impl fmt::Display for Hash {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}

@@ -1,0 +1,124 @@
+//! The methods that are compared, as data.
+
+use asvgf::{Blend, FilterSettings, Gradient, Kernel, Mode, Settings, TracerSettings, Variance};
+
+/// What a method is there to show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// What more paths alone would give.
+    Tracing,
+    /// A moving average along the motion, not filtered in space.
+    Average,
+    /// The published filter with a constant α.
+    Constant,
+    /// An adaptive α.
+    Adaptive,
+    /// The default with other numbers of spatial iterations.
+    Iterations,
+    /// The default without one of its ideas.
+    Ablation,
+    /// Worse on purpose: a report that does not show it is wrong.
+    Control,
+    /// Another denoiser.
+    Baseline,
+}
+
+#[derive(Clone, Debug)]
+pub struct Method {
+    pub name: String,
+    pub group: Group,
+    pub settings: Settings,
+}
+
+/// The name of what all others are compared with: the crate's default.
+pub const DEFAULT: &str = "a-svgf";
+/// The name of path tracing at one path per pixel.
+pub const ONE_PATH: &str = "1 spp";
+/// The name of the method that is worse on purpose.
+pub const CONTROL: &str = "worse on purpose";
+
+/// A few of each kind.
+pub fn quick() -> Vec<Method> {
+    const CHOICE: [&str; 12] = [
+        ONE_PATH,
+        "4 spp",
+        "16 spp",
+        "average 0.2",
+        "svgf 0.2",
+        "svgf 0.05",
+        DEFAULT,
+        "classic",
+        "blinn-phong",
+        "2 iterations",
+        "without ratio",
+        CONTROL,
+    ];
+    all().into_iter().filter(|method| CHOICE.contains(&method.name.as_str())).collect()
+}
+
+/// The most telling first: a budget cuts off the end.
+pub fn all() -> Vec<Method> {
+    let mut methods = vec![adaptive(DEFAULT, FilterSettings::default())];
+    for samples in [1, 2, 4, 8, 16, 32, 64] {
+        let tracer = TracerSettings { samples, ..Default::default() };
+        let settings = Settings { mode: Mode::Noisy, tracer, ..Settings::adaptive() };
+        methods.push(Method { name: format!("{samples} spp"), group: Group::Tracing, settings });
+    }
+    for alpha in [0.2, 0.1, 0.05] {
+        let settings = Settings::classic().constant(alpha);
+        methods.push(Method { name: format!("svgf {alpha}"), group: Group::Constant, settings });
+    }
+    methods.push(adaptive("classic", FilterSettings::classic()));
+    for alpha in [0.2, 0.05] {
+        let settings = filter(FilterSettings { iterations: 0, ..Default::default() }).constant(alpha);
+        methods.push(Method { name: format!("average {alpha}"), group: Group::Average, settings });
+    }
+    methods.push(adaptive("blinn-phong", with(|f| f.gradient = Gradient::BlinnPhong)));
+    for (name, change) in ABLATIONS {
+        methods.push(Method { name: name.into(), group: Group::Ablation, settings: filter(with(change)) });
+    }
+    for iterations in [0, 1, 2, 3, 5] {
+        let name = format!("{iterations} iterations");
+        let settings = filter(FilterSettings { iterations, ..Default::default() });
+        methods.push(Method { name, group: Group::Iterations, settings });
+    }
+    let worse = with(|f| (f.sigma_luminance, f.alpha) = (0.0, 1.0));
+    methods.push(Method { name: CONTROL.into(), group: Group::Control, settings: filter(worse) });
+    methods
+}
+
+type Change = fn(&mut FilterSettings);
+
+/// Each idea of the default (docs/filter.md), undone.
+const ABLATIONS: [(&str, Change); 9] = [
+    ("without gradient", |f| f.gradient = Gradient::Off),
+    ("without ratio", |f| f.history_ratio = false),
+    ("without linear fit", |f| f.local_linear_fit = false),
+    ("with feedback", |f| f.feedback = true),
+    ("variance of a sample", |f| f.variance = Variance::OfSample),
+    ("classic stops", |f| {
+        let FilterSettings { stops, sigma_depth, sigma_normal, .. } = FilterSettings::classic();
+        (f.stops, f.sigma_depth, f.sigma_normal) = (stops, sigma_depth, sigma_normal);
+    }),
+    ("25 taps", |f| f.kernel = Kernel::Full),
+    ("blend by lambda", |f| f.blend = Blend::Lambda),
+    ("signed gradient", |f| {
+        // The settings that its documentation asks for.
+        (f.gradient_signed, f.gradient_iterations, f.gradient_dead_zone) = (true, 5, 0.1);
+    }),
+];
+
+fn adaptive(name: &str, settings: FilterSettings) -> Method {
+    Method { name: name.into(), group: Group::Adaptive, settings: filter(settings) }
+}
+
+fn filter(filter: FilterSettings) -> Settings {
+    Settings { filter, ..Settings::adaptive() }
+}
+
+/// The default but for one change.
+fn with(change: impl FnOnce(&mut FilterSettings)) -> FilterSettings {
+    let mut filter = FilterSettings::default();
+    change(&mut filter);
+    filter
+}

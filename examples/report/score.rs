@@ -1,0 +1,56 @@
+//! How far images are from the truth.
+
+use crate::record::{Row, Settling, finite};
+use crate::suite::TURN;
+use crate::truth::{Moment, RELIT, Rgb};
+use asvgf::metrics::{self, MetricError, PIXELS_PER_DEGREE, Pair};
+
+/// A ghost is looked for in what changed less than so many frames ago.
+const GHOST: u32 = 8;
+
+/// Bands around the new level of a light.
+const BANDS: [f64; 2] = [0.1, 0.02];
+
+/// Share of the pixels that must be relit in one frame for that to be a step of the light.
+const STEP: f64 = 0.5;
+
+/// Fills in the errors of each frame.
+pub fn fill(rows: &mut [Row], images: &[Vec<Rgb>], moments: &[Moment], size: [u32; 2]) -> Result<(), MetricError> {
+    for (i, row) in rows.iter_mut().enumerate() {
+        let moment = &moments[i];
+        let pair = Pair::new(&images[i], &moment.reference)?.counting(&moment.counted)?;
+        row.rel_mse = finite(metrics::relative_mse(&pair));
+        row.rmse = finite(metrics::rmse(&pair));
+        row.bias = finite(metrics::bias(&pair));
+        row.ghost = finite(metrics::ghost_energy(&pair, &moment.ages, GHOST)?);
+        if i > 0 {
+            let before = Pair::new(&images[i - 1], &moments[i - 1].reference)?.counting(&moments[i - 1].counted)?;
+            row.flicker = finite(metrics::flicker(&pair, &before, &moment.steady)?);
+        }
+        let [image, reference] = [&images[i], &moment.reference].map(|colors| metrics::encode(colors, 1.0));
+        let shown = Pair::new(&image, &reference)?.counting(&moment.counted)?;
+        row.psnr = finite(metrics::psnr(&shown, 1.0));
+        row.ssim = finite(metrics::ssim(&shown, size)?);
+        row.flip = finite(metrics::flip(&shown, size, PIXELS_PER_DEGREE)?.mean);
+    }
+    Ok(())
+}
+
+/// How long the change at the turn took to arrive, where it is a step: most pixels are relit at once, and nothing moves after.
+pub fn lag(images: &[Vec<Rgb>], moments: &[Moment]) -> Result<Vec<Settling>, MetricError> {
+    let Some(turn) = moments.iter().position(|moment| moment.index == TURN).filter(|&turn| turn > 0) else {
+        return Ok(Vec::new());
+    };
+    let (old, new) = (&moments[turn - 1].reference, &moments[turn].reference);
+    let relit = moments[turn].ages.iter().filter(|&&age| age == 0).count();
+    let stays = moments[turn..].iter().all(|moment| moment.reference == *new);
+    if (relit as f64) < STEP * new.len() as f64 || !stays {
+        return Ok(Vec::new());
+    }
+    let settle = |band| {
+        let lag = metrics::lag(old, new, &images[turn..], band, RELIT)?;
+        let (median, ninth_decile) = (lag.quantile(0.5), lag.quantile(0.9));
+        Ok(Settling { band, median, ninth_decile, arrived: lag.arrived() })
+    };
+    BANDS.into_iter().map(settle).collect()
+}

@@ -1,0 +1,150 @@
+//! What a sequence should look like: its converged frames, its surfaces, and where they changed.
+
+use crate::film::Film;
+use crate::gpu::Gpu;
+use crate::hash::Hash;
+use crate::options::Options as Shown;
+use crate::stage::Stage;
+use crate::suite::{Sequence, Suite};
+use crate::tracing::{self, Reference};
+use asvgf::image_io::{read_exr, write_exr_rgb};
+use asvgf::scene::{GpuScene, Pose};
+use asvgf::{Camera, Mode, Settings, View, metrics};
+use std::error::Error;
+use std::path::Path;
+
+/// A surface is relit where its luminance changes by more than this part: above the noise of the references.
+pub const RELIT: f64 = 0.25;
+
+/// Where references are kept between reports.
+const FOLDER: &str = "target/references";
+
+pub type Rgb = [f32; 3];
+
+/// A frame, before any method.
+pub struct Moment {
+    pub index: u32,
+    pub pose: Pose,
+    pub camera: Camera,
+    pub reference: Vec<Rgb>,
+    /// Neither an emitter nor a miss: those bypass every filter.
+    pub counted: Vec<bool>,
+    /// Where still surfaces with the same light were in the last frame.
+    pub steady: Vec<Option<usize>>,
+    /// Frames since a pixel's surface was disoccluded or relit.
+    pub ages: Vec<u32>,
+}
+
+/// A sequence with its truth.
+pub struct Truth {
+    pub scene: GpuScene,
+    pub moments: Vec<Moment>,
+    /// Of the scene and all settings that references depend on.
+    pub hash: Hash,
+}
+
+impl Truth {
+    /// Reads the references that are kept, and traces the others. Calls back after each frame.
+    pub fn find(
+        gpu: &Gpu,
+        suite: &Suite,
+        sequence: &Sequence,
+        mut done: impl FnMut(u32),
+    ) -> Result<Self, Box<dyn Error>> {
+        let Sequence { source, animation, .. } = sequence.clone();
+        let stage = Stage::load(&Shown { source, animation, size: suite.size, ..Default::default() })?;
+        let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &stage.scene)?;
+        let settings = Settings { mode: Mode::Noisy, ..Settings::adaptive() };
+        let hash = Hash::of_shaders()?.and(&stage.scene).and(&settings.tracer).and(&suite.size).and(&suite.paths);
+        let mut film = Film::new(gpu, suite.size, settings.clone())?;
+        let mut reference = Reference::new(gpu, suite.size, &settings)?;
+        let mut moments: Vec<Moment> = Vec::new();
+        let mut objects = Vec::new();
+        for index in suite.first()..suite.first() + suite.frames {
+            let pose = stage.pose(index);
+            let camera = stage.camera(&pose, index);
+            move_to(gpu, &mut scene, &pose)?;
+            tracing::render(&mut film, &scene, camera, index)?;
+            let path = Path::new(FOLDER).join(format!("{}.exr", hash.and(&pose).and(&camera)));
+            let converged = match read_colors(&path, suite.size) {
+                Ok(colors) => colors,
+                // It is not there, or cannot be used.
+                Err(_) => {
+                    // Frames share their random numbers: what is traced depends on nothing that was traced before.
+                    reference.rewind();
+                    let colors = reference.converge(&scene, camera, suite.paths, |_| {})?;
+                    std::fs::create_dir_all(FOLDER)?;
+                    write_exr_rgb(&path, suite.size[0], suite.size[1], &colors)?;
+                    colors
+                }
+            };
+            let last = moments.last().map(|moment| (moment, objects.as_slice()));
+            let (moment, seen) = observe(&mut film, Moment::new(index, pose, camera, converged), last)?;
+            moments.push(moment);
+            objects = seen;
+            done(1);
+        }
+        Ok(Self { scene, moments, hash })
+    }
+}
+
+impl Moment {
+    fn new(index: u32, pose: Pose, camera: Camera, reference: Vec<Rgb>) -> Self {
+        Self { index, pose, camera, reference, counted: Vec::new(), steady: Vec::new(), ages: Vec::new() }
+    }
+}
+
+/// Puts everything where it is in a frame.
+pub fn move_to(gpu: &Gpu, scene: &mut GpuScene, pose: &Pose) -> Result<(), Box<dyn Error>> {
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    scene.update(&gpu.device, &mut encoder, pose)?;
+    gpu.queue.submit([encoder.finish()]);
+    Ok(())
+}
+
+/// Finds out what is seen in a frame, given the last one and its objects. Returns the objects too.
+fn observe(
+    film: &mut Film<'_>,
+    mut moment: Moment,
+    last: Option<(&Moment, &[Rgb])>,
+) -> Result<(Moment, Vec<Rgb>), Box<dyn Error>> {
+    let size = film.denoiser.size();
+    let depth = film.numbers(View::Depth)?;
+    let emission = optional(film, View::Emission)?;
+    let objects = film.numbers(View::Object)?;
+    // Nothing moves where there is no image of it.
+    let motion = optional(film, View::Motion)?.unwrap_or_else(|| vec![[0.0; 3]; depth.len()]);
+    let emits = |pixel: usize| emission.as_ref().is_some_and(|e| e[pixel].iter().any(|&x| x > 0.0));
+    moment.counted = depth.iter().enumerate().map(|(pixel, z)| z[0] > 0.0 && !emits(pixel)).collect();
+    let Some((before, before_objects)) = last else {
+        moment.steady = vec![None; depth.len()];
+        moment.ages = vec![u32::MAX; depth.len()];
+        return Ok((moment, objects));
+    };
+    let motion: Vec<_> = motion.iter().map(|m| [m[0], m[1]]).collect();
+    let origins = metrics::origins(size, &motion, |now, then| objects[now] == before_objects[then])?;
+    moment.ages = metrics::ages(&moment.reference, &before.reference, &origins, RELIT, Some(&before.ages))?;
+    let steady = origins.iter().zip(&moment.ages).map(|(&origin, &age)| origin.filter(|_| age > 0));
+    moment.steady = steady.collect();
+    Ok((moment, objects))
+}
+
+/// An image of the last frame, if there is one.
+pub fn optional(film: &mut Film<'_>, view: View) -> Result<Option<Vec<Rgb>>, asvgf::Error> {
+    match film.numbers(view) {
+        Ok(numbers) => Ok(Some(numbers)),
+        Err(asvgf::Error::NoView { .. }) => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// R, G and B of a file.
+pub fn read_colors(path: &Path, size: [u32; 2]) -> Result<Vec<Rgb>, Box<dyn Error>> {
+    let image = read_exr(path)?;
+    if [image.width, image.height] != size {
+        return Err(format!("{}: is {}×{} pixels", path.display(), image.width, image.height).into());
+    }
+    let channel = |name: &str| image.get(name).ok_or_else(|| format!("{}: has no channel {name}", path.display()));
+    let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
+    Ok((0..r.len()).map(|i| [r[i], g[i], b[i]]).collect())
+}
