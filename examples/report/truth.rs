@@ -9,12 +9,15 @@ use crate::suite::{Sequence, Suite};
 use crate::tracing::{self, Reference};
 use asvgf::image_io::{read_exr, write_exr_rgb};
 use asvgf::scene::{GpuScene, Pose};
-use asvgf::{Camera, Mode, Settings, View, metrics};
+use asvgf::{Camera, Settings, View, metrics};
 use std::error::Error;
 use std::path::Path;
 
 /// A surface is relit where its luminance changes by more than this part: above the noise of the references.
 pub const RELIT: f64 = 0.25;
+
+/// Part of the depth by which the same surface may differ, half a pixel aside.
+const SAME_DEPTH: f32 = 0.05;
 
 /// Where references are kept between reports.
 const FOLDER: &str = "target/references";
@@ -54,12 +57,12 @@ impl Truth {
         let Sequence { source, animation, .. } = sequence.clone();
         let stage = Stage::load(&Shown { source, animation, size: suite.size, ..Default::default() })?;
         let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &stage.scene)?;
-        let settings = Settings { mode: Mode::Noisy, ..Settings::adaptive() };
+        let settings = Settings::adaptive();
         let hash = Hash::of_shaders()?.and(&stage.scene).and(&settings.tracer).and(&suite.size).and(&suite.paths);
         let mut film = Film::new(gpu, suite.size, settings.clone())?;
         let mut reference = Reference::new(gpu, suite.size, &settings)?;
         let mut moments: Vec<Moment> = Vec::new();
-        let mut objects = Vec::new();
+        let mut seen = None;
         for index in suite.first()..suite.first() + suite.frames {
             let pose = stage.pose(index);
             let camera = stage.camera(&pose, index);
@@ -78,10 +81,10 @@ impl Truth {
                     colors
                 }
             };
-            let last = moments.last().map(|moment| (moment, objects.as_slice()));
-            let (moment, seen) = observe(&mut film, Moment::new(index, pose, camera, converged), last)?;
+            let last = moments.last().zip(seen.as_ref());
+            let (moment, now) = observe(&mut film, Moment::new(index, pose, camera, converged), last)?;
             moments.push(moment);
-            objects = seen;
+            seen = Some(now);
             done(1);
         }
         Ok(Self { scene, moments, hash })
@@ -102,31 +105,48 @@ pub fn move_to(gpu: &Gpu, scene: &mut GpuScene, pose: &Pose) -> Result<(), Box<d
     Ok(())
 }
 
-/// Finds out what is seen in a frame, given the last one and its objects. Returns the objects too.
+/// What tells surfaces apart.
+struct Seen {
+    depth: Vec<Rgb>,
+    /// `None` where there is but one object.
+    objects: Option<Vec<Rgb>>,
+}
+
+impl Seen {
+    /// Whether a point that was `depth` away in the last frame is what a pixel saw then.
+    fn had(&self, pixel: usize, depth: f32) -> bool {
+        (self.depth[pixel][0] - depth).abs() <= SAME_DEPTH * depth
+    }
+}
+
+/// Finds out what is seen in a frame, given the last one.
 fn observe(
     film: &mut Film<'_>,
     mut moment: Moment,
-    last: Option<(&Moment, &[Rgb])>,
-) -> Result<(Moment, Vec<Rgb>), Box<dyn Error>> {
+    last: Option<(&Moment, &Seen)>,
+) -> Result<(Moment, Seen), Box<dyn Error>> {
     let size = film.denoiser.size();
-    let depth = film.numbers(View::Depth)?;
     let emission = optional(film, View::Emission)?;
-    let objects = film.numbers(View::Object)?;
-    // Nothing moves where there is no image of it.
-    let motion = optional(film, View::Motion)?.unwrap_or_else(|| vec![[0.0; 3]; depth.len()]);
+    let seen = Seen { depth: film.numbers(View::Depth)?, objects: optional(film, View::Object)? };
     let emits = |pixel: usize| emission.as_ref().is_some_and(|e| e[pixel].iter().any(|&x| x > 0.0));
-    moment.counted = depth.iter().enumerate().map(|(pixel, z)| z[0] > 0.0 && !emits(pixel)).collect();
-    let Some((before, before_objects)) = last else {
-        moment.steady = vec![None; depth.len()];
-        moment.ages = vec![u32::MAX; depth.len()];
-        return Ok((moment, objects));
+    moment.counted = seen.depth.iter().enumerate().map(|(pixel, z)| z[0] > 0.0 && !emits(pixel)).collect();
+    let Some((before, then)) = last else {
+        moment.steady = vec![None; seen.depth.len()];
+        moment.ages = vec![u32::MAX; seen.depth.len()];
+        return Ok((moment, seen));
     };
-    let motion: Vec<_> = motion.iter().map(|m| [m[0], m[1]]).collect();
-    let origins = metrics::origins(size, &motion, |now, then| objects[now] == before_objects[then])?;
+    // Nothing moves where there is no image of it.
+    let motion = optional(film, View::Motion)?;
+    let moved = motion.unwrap_or_else(|| seen.depth.iter().map(|z| [0.0, 0.0, z[0]]).collect());
+    let flat: Vec<_> = moved.iter().map(|m| [m[0], m[1]]).collect();
+    let objects = seen.objects.as_ref().zip(then.objects.as_ref());
+    let origins = metrics::origins(size, &flat, |pixel, origin| {
+        objects.is_none_or(|(now, then)| now[pixel] == then[origin]) && then.had(origin, moved[pixel][2])
+    })?;
     moment.ages = metrics::ages(&moment.reference, &before.reference, &origins, RELIT, Some(&before.ages))?;
     let steady = origins.iter().zip(&moment.ages).map(|(&origin, &age)| origin.filter(|_| age > 0));
     moment.steady = steady.collect();
-    Ok((moment, objects))
+    Ok((moment, seen))
 }
 
 /// An image of the last frame, if there is one.
