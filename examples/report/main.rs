@@ -99,7 +99,7 @@ fn report(command: &Command) -> Result<(), Box<dyn Error>> {
     bar.finish_and_clear();
     write(command, "report.csv", &tables::csv(&rows))?;
     write(command, "report.json", &tables::json(&rows)?)?;
-    let context = Context { facts: tables::facts(command, &gpu), dropped };
+    let context = Context { facts: tables::facts(command, &gpu), dropped, paths: suite.paths };
     write(command, "report.md", &words::report(&context, &chapters))?;
     say(&format!("{}\n", command.out.join("report.md").display()));
     Ok(())
@@ -161,7 +161,9 @@ impl Work<'_> {
         let Command { suite, .. } = self.command;
         let key = truth.hash.and(&method.settings).and(&suite.frames).and(&self.gpu.adapter.name).to_string();
         let path = folder.join(format!("{}.json", method.name));
-        if let Some(run) = Run::load(&path, &key) {
+        // Without a budget, what an earlier one cut short is measured again.
+        let complete = |run: &Run| self.deadline.is_some() || run.repeats >= suite.repeats;
+        if let Some(run) = Run::load(&path, &key).filter(complete) {
             return Ok(Some(run));
         }
         // Each run that is left gets its part of the time that is left, and repeats within that.

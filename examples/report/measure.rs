@@ -6,6 +6,7 @@ use crate::methods::Method;
 use crate::record::{Row, Run, finite};
 use crate::score;
 use crate::suite::Suite;
+use crate::summary::median;
 use crate::times::PassTimes;
 use crate::tracing;
 use crate::truth::{Rgb, Truth, move_to, optional};
@@ -72,15 +73,4 @@ pub fn run(
     score::fill(&mut rows, &images, &truth.moments, suite.size)?;
     let lag = score::lag(&images, &truth.moments)?;
     Ok(Output { run: Run { key, rows, lag, repeats: all.len() as u32 - 1, times: repeats }, images })
-}
-
-/// `None` of nothing.
-pub fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    match values.len() {
-        0 => None,
-        n if n % 2 == 1 => Some(values[middle]),
-        _ => Some(0.5 * (values[middle - 1] + values[middle])),
-    }
 }

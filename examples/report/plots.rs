@@ -7,6 +7,7 @@ use crate::suite::TURN;
 use crate::summary::Summary;
 use crate::verdict;
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use std::error::Error;
 use std::path::Path;
@@ -19,6 +20,22 @@ const LABELS: u32 = 64;
 
 /// Methods whose frames are drawn one by one.
 const FOLLOWED: [&str; 6] = [ONE_PATH, "average 0.2", "svgf 0.2", "svgf 0.05", "classic", DEFAULT];
+
+/// Colours that are told apart, dark enough for lines on white.
+const PALETTE: [RGBColor; 12] = [
+    RGBColor(78, 121, 167),
+    RGBColor(242, 142, 43),
+    RGBColor(89, 161, 79),
+    RGBColor(225, 87, 89),
+    RGBColor(118, 183, 178),
+    RGBColor(176, 122, 161),
+    RGBColor(156, 117, 95),
+    RGBColor(237, 201, 72),
+    RGBColor(255, 157, 167),
+    RGBColor(140, 140, 140),
+    RGBColor(60, 90, 60),
+    RGBColor(60, 60, 120),
+];
 
 type Drawn = Result<(), Box<dyn Error>>;
 
@@ -72,14 +89,24 @@ impl Plot for ErrorTime<'_> {
         mesh.x_desc("milliseconds per frame").y_desc("relative MSE").label_style(FONT).draw()?;
         let front = verdict::pareto(self.summaries).into_iter().filter_map(Summary::point);
         chart.draw_series(LineSeries::new(front, BLACK.mix(0.5).stroke_width(2)))?;
+        chart.draw_series(points.iter().map(|&(point, s)| Circle::new(point, 5, color(s.group).filled())))?;
+        let mut labels: Vec<[i32; 2]> = Vec::new();
         for (point, summary) in points {
-            let color = color(summary.group);
-            chart.draw_series([Circle::new(point, 5, color.filled())])?;
-            let label = EmptyElement::at(point) + Text::new(summary.method.clone(), (9, -4), FONT);
-            chart.draw_series([label])?;
+            let (x, y) = chart.backend_coord(&point);
+            let place = free([x + 9, y - 4], &labels);
+            labels.push(place);
+            root.draw(&Text::new(summary.method.as_str(), (place[0], place[1]), FONT))?;
         }
         Ok(())
     }
+}
+
+/// The nearest place above or below one where a label covers no other.
+fn free([x, y]: [i32; 2], labels: &[[i32; 2]]) -> [i32; 2] {
+    let [wide, high] = [110, 12];
+    let covers = |place: [i32; 2]| labels.iter().any(|l| (l[0] - x).abs() < wide && (l[1] - place[1]).abs() < high);
+    let near = (0..40).flat_map(|step| [[x, y + high * step], [x, y - high * step]]);
+    near.into_iter().find(|&place| !covers(place)).unwrap_or([x, y])
 }
 
 /// A number of each frame around the turn, for some methods.
@@ -93,29 +120,47 @@ struct Curves<'a> {
 
 impl Plot for Curves<'_> {
     fn draw<B: DrawingBackend<ErrorType: 'static>>(&self, root: &DrawingArea<B, Shift>) -> Drawn {
-        let height = |value: f64| if self.logarithmic { value.max(1e-9).log10() } else { value };
         let followed = FOLLOWED.iter().filter_map(|name| verdict::find(self.summaries, name));
         let points = |summary: &Summary| -> Vec<(f64, f64)> {
-            summary.rows.iter().filter_map(|row| Some((row.frame.into(), height((self.column)(row)?)))).collect()
+            summary.rows.iter().filter_map(|row| Some((row.frame.into(), (self.column)(row)?))).collect()
         };
         let curves: Vec<_> = followed.map(|summary| (summary, points(summary))).collect();
         let all = curves.iter().flat_map(|(_, points)| points.iter().copied());
         let Some([frames, [low, high]]) = bounds(all) else { return Ok(()) };
-        let room = 0.05 * (high - low).max(0.01);
+        if self.logarithmic {
+            self.draw_on(root, curves, frames, [low / 1.5, high * 1.5], |[low, high]| (low..high).log_scale())
+        } else {
+            let room = 0.05 * (high - low).max(0.01);
+            self.draw_on(root, curves, frames, [low - room, high + room], |[low, high]| low..high)
+        }
+    }
+}
+
+impl Curves<'_> {
+    /// Draws the curves on an axis of either kind.
+    fn draw_on<B: DrawingBackend<ErrorType: 'static>, Y: AsRangedCoord<Value = f64>>(
+        &self,
+        root: &DrawingArea<B, Shift>,
+        curves: Vec<(&Summary, Vec<(f64, f64)>)>,
+        frames: [f64; 2],
+        heights: [f64; 2],
+        axis: fn([f64; 2]) -> Y,
+    ) -> Drawn
+    where
+        Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    {
         let mut chart = ChartBuilder::on(root)
             .caption(format!("{}: {} per frame", self.sequence, self.title), TITLE)
             .margin(12)
             .x_label_area_size(LABELS)
             .y_label_area_size(LABELS + 24)
-            .build_cartesian_2d(frames[0]..frames[1], low - room..high + room)?;
-        let label = |y: &f64| if self.logarithmic { format!("{:.1e}", 10_f64.powf(*y)) } else { format!("{y:.2}") };
+            .build_cartesian_2d(frames[0]..frames[1], axis(heights))?;
         let mesh = &mut chart.configure_mesh();
-        mesh.x_desc("frame").y_desc(self.title).y_label_formatter(&label);
-        mesh.x_label_formatter(&|x| format!("{x:.0}")).label_style(FONT).draw()?;
-        let turn = f64::from(TURN);
-        chart.draw_series(LineSeries::new([(turn, low - room), (turn, high + room)], BLACK.mix(0.3)))?;
+        mesh.x_desc("frame").y_desc(self.title).x_label_formatter(&|x| format!("{x:.0}")).label_style(FONT).draw()?;
+        let turn = heights.map(|height| (f64::from(TURN), height));
+        chart.draw_series(LineSeries::new(turn, BLACK.mix(0.3)))?;
         for (i, (summary, points)) in curves.into_iter().enumerate().filter(|(_, (_, points))| !points.is_empty()) {
-            let color = Palette99::pick(i).stroke_width(2);
+            let color = PALETTE[i % PALETTE.len()].stroke_width(2);
             let sample = move |(x, y)| PathElement::new([(x, y), (x + 16, y)], color);
             chart.draw_series(LineSeries::new(points, color))?.label(&summary.method).legend(sample);
         }
@@ -157,7 +202,7 @@ impl Plot for Passes<'_> {
         mesh.disable_y_mesh().disable_y_axis().x_desc("milliseconds per frame").label_style(FONT).draw()?;
         // The names of the passes' colours.
         for (i, name) in names.iter().enumerate() {
-            let color = Palette99::pick(i).filled();
+            let color = PALETTE[i % PALETTE.len()].filled();
             let sample = move |(x, y)| Rectangle::new([(x, y - 5), (x + 10, y + 5)], color);
             let boxes = bars.iter().enumerate().filter_map(|(row, bar)| {
                 let at = bar.passes.iter().position(|(other, _)| other == name)?;

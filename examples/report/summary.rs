@@ -1,6 +1,5 @@
 //! What a run comes to: means over its frames, and times.
 
-use crate::measure::median;
 use crate::methods::Group;
 use crate::record::{Column, Row, Run, Settling};
 
@@ -51,6 +50,17 @@ impl Summary {
     /// Milliseconds and error, where both are known and can be drawn on logarithmic axes.
     pub fn point(&self) -> Option<(f64, f64)> {
         Some((self.ms?.median, self.error()?)).filter(|&(ms, error)| ms > 0.0 && error > 0.0)
+    }
+}
+
+/// `None` of nothing.
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() {
+        0 => None,
+        n if n % 2 == 1 => Some(values[middle]),
+        _ => Some(0.5 * (values[middle - 1] + values[middle])),
     }
 }
 

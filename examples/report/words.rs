@@ -11,6 +11,8 @@ pub struct Context {
     pub facts: Vec<String>,
     /// What did not fit into the budget.
     pub dropped: Vec<String>,
+    /// Paths per pixel of the references.
+    pub paths: u32,
 }
 
 /// A sequence, its methods, and its plots and pictures.
@@ -42,7 +44,7 @@ pub fn report(context: &Context, chapters: &[Chapter]) -> String {
         let _ = write!(out, "\n## {}\n\n", chapter.sequence);
         out += &table(&chapter.summaries);
         out += &lags(&chapter.summaries);
-        out += &verdicts(chapter);
+        out += &verdicts(chapter, context.paths);
         for plot in &chapter.plots {
             let _ = write!(out, "\n![{plot}]({plot}.svg)\n");
         }
@@ -125,7 +127,7 @@ fn lags(summaries: &[Summary]) -> String {
 }
 
 /// What the numbers of a sequence say.
-fn verdicts(chapter: &Chapter) -> String {
+fn verdicts(chapter: &Chapter, paths: u32) -> String {
     let summaries = &chapter.summaries;
     let mut out = String::from("\n");
     if let (Some(best), Some(default)) = (verdict::equal_time(summaries), verdict::find(summaries, DEFAULT)) {
@@ -157,6 +159,9 @@ fn verdicts(chapter: &Chapter) -> String {
         let _ = writeln!(out, "- Beaten by nothing in both time and error: {}.", front.join(", "));
     }
     out += &ablation(summaries);
+    if let Some(floor) = verdict::floor(summaries, paths) {
+        let _ = writeln!(out, "- The references' own noise adds {floor:.5} to each relMSE.");
+    }
     for claim in verdict::claims(&chapter.sequence, summaries) {
         let _ = writeln!(out, "- {}: {}.", if claim.holds { "Holds" } else { "**Does not hold**" }, claim.text);
     }
