@@ -5,8 +5,8 @@ use asvgf::{Blend, FilterSettings, Gradient, Kernel, Mode, Settings, TracerSetti
 /// What a method is there to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// What more paths alone would give.
-    Tracing,
+    /// What more paths alone would give: so many per pixel.
+    Tracing(u32),
     /// A moving average along the motion, not filtered in space.
     Average,
     /// The published filter with a constant α.
@@ -62,7 +62,7 @@ pub fn all() -> Vec<Method> {
     for samples in [1, 2, 4, 8, 16, 32, 64] {
         let tracer = TracerSettings { samples, ..Default::default() };
         let settings = Settings { mode: Mode::Noisy, tracer, ..Settings::adaptive() };
-        methods.push(Method { name: format!("{samples} spp"), group: Group::Tracing, settings });
+        methods.push(Method { name: format!("{samples} spp"), group: Group::Tracing(samples), settings });
     }
     for alpha in [0.2, 0.1, 0.05] {
         let settings = Settings::classic().constant(alpha);

@@ -179,7 +179,8 @@ struct Passes<'a> {
 impl Plot for Passes<'_> {
     fn draw<B: DrawingBackend<ErrorType: 'static>>(&self, root: &DrawingArea<B, Shift>) -> Drawn {
         // Many paths take so long that nothing else would be seen.
-        let shown = |s: &&Summary| (s.group != Group::Tracing || s.method == ONE_PATH) && !s.passes.is_empty();
+        let shown =
+            |s: &&Summary| (!matches!(s.group, Group::Tracing(_)) || s.method == ONE_PATH) && !s.passes.is_empty();
         let bars: Vec<_> = self.summaries.iter().filter(shown).filter(|s| s.method != CONTROL).collect();
         let total = |s: &Summary| s.passes.iter().map(|(_, ms)| ms).sum::<f64>();
         let longest = bars.iter().map(|s| total(s)).fold(0.0, f64::max);
@@ -234,7 +235,7 @@ fn bounds(points: impl Iterator<Item = (f64, f64)>) -> Option<[[f64; 2]; 2]> {
 
 fn color(group: Group) -> RGBColor {
     match group {
-        Group::Tracing => RGBColor(120, 120, 120),
+        Group::Tracing(_) => RGBColor(120, 120, 120),
         Group::Average => RGBColor(190, 150, 60),
         Group::Constant => RGBColor(200, 90, 60),
         Group::Adaptive => RGBColor(30, 110, 200),

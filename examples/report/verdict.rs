@@ -40,23 +40,36 @@ pub fn equal_time(summaries: &[Summary]) -> Option<&Summary> {
 
 /// What path tracing alone would take for the default's error.
 pub struct SpeedUp {
+    /// Paths per pixel.
+    pub paths: f64,
     pub ms: f64,
+    /// Times the default's milliseconds.
     pub factor: f64,
-    /// Exponent of its error over its time; −1 is what independent samples give.
-    pub slope: f64,
     /// Whether so many paths were never measured.
     pub extrapolated: bool,
 }
 
-/// A line through path tracing's points on logarithmic axes (least squares), read off at the default's error.
-pub fn equal_error(summaries: &[Summary]) -> Option<SpeedUp> {
+/// Fits a·pathsᵇ to path tracing's error, less the references' own, and c + d·paths to its milliseconds (both by least squares),
+/// and reads both off at the default's error.
+pub fn equal_error(summaries: &[Summary], reference: u32) -> Option<SpeedUp> {
     let (time, error) = find(summaries, DEFAULT)?.point()?;
-    let traced = summaries.iter().filter(|summary| summary.group == Group::Tracing);
-    let points: Vec<_> = traced.filter_map(|s| s.point()).map(|(ms, error)| (ms.ln(), error.ln())).collect();
-    let (slope, height) = line(&points)?;
-    let ms = ((error.ln() - height) / slope).exp();
-    let longest = points.iter().map(|point| point.0.exp()).fold(0.0, f64::max);
-    (slope < 0.0).then_some(SpeedUp { ms, factor: ms / time, slope, extrapolated: ms > longest })
+    let floor = floor(summaries, reference)?;
+    let traced = summaries.iter().filter_map(|summary| match summary.group {
+        Group::Tracing(paths) => Some((f64::from(paths), summary.point()?)),
+        _ => None,
+    });
+    let traced: Vec<_> = traced.filter(|&(_, (_, error))| error > floor).collect();
+    let errors: Vec<_> = traced.iter().map(|&(paths, (_, error))| (paths.ln(), (error - floor).ln())).collect();
+    let times: Vec<_> = traced.iter().map(|&(paths, (ms, _))| (paths, ms)).collect();
+    let (exponent, height) = line(&errors)?;
+    let (each, fixed) = line(&times)?;
+    if error <= floor || exponent >= 0.0 {
+        return None;
+    }
+    let paths = (((error - floor).ln() - height) / exponent).exp();
+    let ms = fixed + each * paths;
+    let most = traced.iter().map(|&(paths, _)| paths).fold(0.0, f64::max);
+    Some(SpeedUp { paths, ms, factor: ms / time, extrapolated: paths > most })
 }
 
 /// Slope and height at 0 of the line of least squares.

@@ -143,15 +143,13 @@ fn verdicts(chapter: &Chapter, paths: u32) -> String {
             ),
         };
     }
-    if let Some(speed_up) = verdict::equal_error(summaries) {
+    if let Some(speed_up) = verdict::equal_error(summaries, paths) {
         let how = if speed_up.extrapolated { "extrapolated" } else { "interpolated" };
         let _ = writeln!(
             out,
-            "- Equal error: path tracing alone would take {} ms a frame for the error of {DEFAULT}, {:.0} times as long ({how} along its \
-             fitted exponent of {:.2}).",
-            number(Some(speed_up.ms), 1),
-            speed_up.factor,
-            speed_up.slope,
+            "- Equal error: path tracing alone would need {:.0} paths per pixel ({how}) and {:.1} ms a frame for the error of {DEFAULT}: \
+             {:.1} times as long.",
+            speed_up.paths, speed_up.ms, speed_up.factor,
         );
     }
     let front: Vec<&str> = verdict::pareto(summaries).into_iter().map(|summary| summary.method.as_str()).collect();
