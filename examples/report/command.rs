@@ -23,6 +23,8 @@ Usage: cargo run --release --example report -- [OPTIONS]
   --baseline NAME=DIR   also score another denoiser's frames. DIR/SEQUENCE/ holds
                         denoised_0022.exr, …, and may hold times.txt with the
                         milliseconds of each frame, one a line. May be repeated
+  --sequences           also write the frames, as the example `denoise` reads them, and
+                        their references: DIR/sequences/SEQUENCE/
   -h, --help            print this
 
 Writes report.md, report.csv, report.json, plots (.svg and .png) and comparisons (.png).
@@ -43,6 +45,8 @@ pub struct Command {
     pub budget: Option<f64>,
     pub out: PathBuf,
     pub baselines: Vec<Baseline>,
+    /// Write the frames too.
+    pub export: bool,
 }
 
 /// Another denoiser's output.
@@ -54,12 +58,16 @@ pub struct Baseline {
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let mut suite = Suite::quick();
-    let (mut scene, mut size) = (None, None);
+    let (mut scene, mut size, mut export) = (None, None, false);
     let (mut budget, mut out, mut baselines) = (None, PathBuf::from("target/report"), Vec::new());
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
         let name = match argument {
             lexopt::Arg::Short('h') | lexopt::Arg::Long("help") => return Ok(Request::Help),
+            lexopt::Arg::Long("sequences") => {
+                export = true;
+                continue;
+            }
             lexopt::Arg::Long(name @ ("suite" | "scene" | "size" | "budget" | "out" | "baseline")) => name.to_owned(),
             _ => return Err(argument.unexpected().into()),
         };
@@ -80,7 +88,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         suite.only(&scene);
     }
     suite.size = size.unwrap_or(suite.size);
-    Ok(Request::Report(Command { suite, budget, out, baselines }))
+    Ok(Request::Report(Command { suite, budget, out, baselines, export }))
 }
 
 fn pixels(value: &Value) -> Result<[u32; 2], Usage> {

@@ -8,11 +8,17 @@ use std::path::Path;
 pub struct Hash(u64);
 
 impl Hash {
-    /// Of the shaders: other shaders, other images.
-    pub fn of_shaders() -> std::io::Result<Self> {
-        let mut hash = Self(0xcbf2_9ce4_8422_2325);
-        hash.folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders"))?;
-        Ok(hash)
+    /// Of files and folders of this repository.
+    pub fn of(paths: &[&str]) -> std::io::Result<Self> {
+        Self(0xcbf2_9ce4_8422_2325).and_files(paths)
+    }
+
+    /// Of this, and then of files and folders of this repository.
+    pub fn and_files(mut self, paths: &[&str]) -> std::io::Result<Self> {
+        for path in paths {
+            self.file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(path))?;
+        }
+        Ok(self)
     }
 
     /// Of this, and then of what its debug output shows.
@@ -22,18 +28,15 @@ impl Hash {
         self
     }
 
-    fn folder(&mut self, folder: &Path) -> std::io::Result<()> {
-        let mut paths: Vec<_> =
-            std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<std::io::Result<_>>()?;
-        paths.sort();
-        for path in paths {
-            if path.is_dir() {
-                self.folder(&path)?;
-            } else {
-                self.bytes(&std::fs::read(&path)?);
-            }
+    fn file(&mut self, path: &Path) -> std::io::Result<()> {
+        if !path.is_dir() {
+            self.bytes(&std::fs::read(path)?);
+            return Ok(());
         }
-        Ok(())
+        let entries = std::fs::read_dir(path)?.map(|entry| Ok(entry?.path()));
+        let mut paths: Vec<_> = entries.collect::<std::io::Result<_>>()?;
+        paths.sort();
+        paths.iter().try_for_each(|path| self.file(path))
     }
 
     fn bytes(&mut self, bytes: &[u8]) {

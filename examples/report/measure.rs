@@ -47,11 +47,8 @@ pub fn run(
             times.push(tracing::render(&mut film, &truth.scene, moment.camera, moment.index)?);
             if repeat == 0 {
                 images.push(gpu.read_colors(&film.target));
-                let mean = |numbers: Option<Vec<Rgb>>| {
-                    numbers.and_then(|n| finite(n.iter().map(|p| f64::from(p[0])).sum::<f64>() / n.len() as f64))
-                };
-                let lambda = mean(optional(&mut film, View::Lambda)?);
-                let history = mean(optional(&mut film, View::HistoryLength)?);
+                let lambda = average(optional(&mut film, View::Lambda)?, &moment.counted);
+                let history = average(optional(&mut film, View::HistoryLength)?, &moment.counted);
                 let (sequence, method, frame) = (sequence.into(), method.name.clone(), moment.index);
                 rows.push(Row { sequence, method, frame, lambda, history, ..Default::default() });
             }
@@ -73,4 +70,12 @@ pub fn run(
     score::fill(&mut rows, &images, &truth.moments, suite.size)?;
     let lag = score::lag(&images, &truth.moments)?;
     Ok(Output { run: Run { key, rows, lag, repeats: all.len() as u32 - 1, times: repeats }, images })
+}
+
+/// Mean over the pixels that count, of an image that may not exist.
+fn average(numbers: Option<Vec<Rgb>>, counted: &[bool]) -> Option<f64> {
+    let numbers = numbers?;
+    let values = numbers.iter().zip(counted).filter(|(_, counted)| **counted);
+    let (sum, count) = values.fold((0.0, 0_u32), |(sum, count), (number, _)| (sum + f64::from(number[0]), count + 1));
+    finite(sum / f64::from(count))
 }

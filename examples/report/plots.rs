@@ -86,7 +86,7 @@ impl Plot for ErrorTime<'_> {
             .y_label_area_size(LABELS + 24)
             .build_cartesian_2d(room(times), room(errors))?;
         let mesh = &mut chart.configure_mesh();
-        mesh.x_desc("milliseconds per frame").y_desc("relative MSE").label_style(FONT).draw()?;
+        mesh.x_desc("milliseconds per frame").y_desc("relative MSE").label_style(FONT).max_light_lines(1).draw()?;
         let front = verdict::pareto(self.summaries).into_iter().filter_map(Summary::point);
         chart.draw_series(LineSeries::new(front, BLACK.mix(0.5).stroke_width(2)))?;
         chart.draw_series(points.iter().map(|&(point, s)| Circle::new(point, 5, color(s.group).filled())))?;
@@ -154,9 +154,11 @@ impl Curves<'_> {
             .margin(12)
             .x_label_area_size(LABELS)
             .y_label_area_size(LABELS + 24)
-            .build_cartesian_2d(frames[0]..frames[1], axis(heights))?;
+            // The legend is beside the curves.
+            .build_cartesian_2d(frames[0]..frames[1] + 0.25 * (frames[1] - frames[0]), axis(heights))?;
         let mesh = &mut chart.configure_mesh();
-        mesh.x_desc("frame").y_desc(self.title).x_label_formatter(&|x| format!("{x:.0}")).label_style(FONT).draw()?;
+        mesh.x_desc("frame").y_desc(self.title).x_label_formatter(&|x| format!("{x:.0}"));
+        mesh.label_style(FONT).max_light_lines(1).draw()?;
         let turn = heights.map(|height| (f64::from(TURN), height));
         chart.draw_series(LineSeries::new(turn, BLACK.mix(0.3)))?;
         for (i, (summary, points)) in curves.into_iter().enumerate().filter(|(_, (_, points))| !points.is_empty()) {
@@ -200,7 +202,12 @@ impl Plot for Passes<'_> {
             .y_label_area_size(2 * LABELS + 32)
             .build_cartesian_2d(0.0..1.4 * longest, 0.0..bars.len() as f64)?;
         let mesh = &mut chart.configure_mesh();
-        mesh.disable_y_mesh().disable_y_axis().x_desc("milliseconds per frame").label_style(FONT).draw()?;
+        mesh.disable_y_mesh()
+            .disable_y_axis()
+            .x_desc("milliseconds per frame")
+            .label_style(FONT)
+            .max_light_lines(1)
+            .draw()?;
         // The names of the passes' colours.
         for (i, name) in names.iter().enumerate() {
             let color = PALETTE[i % PALETTE.len()].filled();

@@ -1,5 +1,6 @@
 //! What a sequence should look like: its converged frames, its surfaces, and where they changed.
 
+use crate::export;
 use crate::film::Film;
 use crate::gpu::Gpu;
 use crate::hash::Hash;
@@ -21,6 +22,9 @@ const SAME_DEPTH: f32 = 0.05;
 
 /// Where references are kept between reports.
 const FOLDER: &str = "target/references";
+
+/// The code that decides what converges: a filter may change without it.
+const TRACER: [&str; 4] = ["shaders/shared", "shaders/visibility.wgsl", "shaders/trace.wgsl", "src/scene"];
 
 pub type Rgb = [f32; 3];
 
@@ -47,18 +51,20 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// Reads the references that are kept, and traces the others. Calls back after each frame.
+    /// Reads the references that are kept, and traces the others. Calls back after each frame. With a folder to export to, writes
+    /// there what any denoiser needs, as `denoise` and `score` read it.
     pub fn find(
         gpu: &Gpu,
         suite: &Suite,
         sequence: &Sequence,
+        export: Option<&Path>,
         mut done: impl FnMut(u32),
     ) -> Result<Self, Box<dyn Error>> {
         let Sequence { source, animation, .. } = sequence.clone();
         let stage = Stage::load(&Shown { source, animation, size: suite.size, ..Default::default() })?;
         let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &stage.scene)?;
         let settings = Settings::adaptive();
-        let hash = Hash::of_shaders()?.and(&stage.scene).and(&settings.tracer).and(&suite.size).and(&suite.paths);
+        let hash = Hash::of(&TRACER)?.and(&stage.scene).and(&settings.tracer).and(&suite.size).and(&suite.paths);
         let mut film = Film::new(gpu, suite.size, settings.clone())?;
         let mut reference = Reference::new(gpu, suite.size, &settings)?;
         let mut moments: Vec<Moment> = Vec::new();
@@ -81,11 +87,20 @@ impl Truth {
                     colors
                 }
             };
+            if let Some(folder) = export {
+                export::write_frame(&folder.join(format!("frame_{index:04}.exr")), &mut film)?;
+                let path = folder.join(format!("reference_{index:04}.exr"));
+                write_exr_rgb(path, suite.size[0], suite.size[1], &converged)?;
+            }
             let last = moments.last().zip(seen.as_ref());
             let (moment, now) = observe(&mut film, Moment::new(index, pose, camera, converged), last)?;
             moments.push(moment);
             seen = Some(now);
             done(1);
+        }
+        if let Some(folder) = export {
+            let cameras: Vec<_> = moments.iter().map(|moment| moment.camera).collect();
+            export::write_manifest(folder, suite.size, &cameras)?;
         }
         Ok(Self { scene, moments, hash })
     }

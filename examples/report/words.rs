@@ -43,6 +43,7 @@ pub fn report(context: &Context, chapters: &[Chapter]) -> String {
     for chapter in chapters {
         let _ = write!(out, "\n## {}\n\n", chapter.sequence);
         out += &table(&chapter.summaries);
+        out += &passes(&chapter.summaries);
         out += &lags(&chapter.summaries);
         out += &verdicts(chapter, context.paths);
         for plot in &chapter.plots {
@@ -97,6 +98,26 @@ fn table(summaries: &[Summary]) -> String {
             number(summary.mean(|row| row.ssim), 4),
             number(summary.mean(|row| row.flip), 4),
         );
+    }
+    out
+}
+
+/// Milliseconds of each pass.
+fn passes(summaries: &[Summary]) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for (name, _) in summaries.iter().filter(|s| s.group != Group::Baseline).flat_map(|s| &s.passes) {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    if names.is_empty() {
+        return String::new();
+    }
+    let mut out = format!("\n| ms of | {} |\n|---|{}\n", names.join(" | "), "--:|".repeat(names.len()));
+    for summary in summaries.iter().filter(|summary| summary.group != Group::Baseline) {
+        let of = |name: &&str| summary.passes.iter().find(|(other, _)| other == name).map(|(_, ms)| *ms);
+        let cells: Vec<String> = names.iter().map(|name| number(of(name), 3)).collect();
+        let _ = writeln!(out, "| {} | {} |", summary.method, cells.join(" | "));
     }
     out
 }

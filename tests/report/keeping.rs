@@ -5,8 +5,10 @@ use crate::record::{Row, Run};
 
 #[test]
 fn a_hash_tells_what_decides_it() {
-    let shaders = Hash::of_shaders().unwrap();
-    assert_eq!(shaders.to_string(), Hash::of_shaders().unwrap().to_string());
+    let shaders = Hash::of(&["shaders"]).unwrap();
+    assert_eq!(shaders.to_string(), Hash::of(&["shaders"]).unwrap().to_string());
+    assert_ne!(shaders.to_string(), Hash::of(&["shaders/shared"]).unwrap().to_string());
+    assert!(Hash::of(&["nothing"]).is_err());
     let hash = |things: &[u32]| things.iter().fold(shaders, |hash, thing| hash.and(thing)).to_string();
     assert_eq!(hash(&[1, 2]), hash(&[1, 2]));
     assert_ne!(hash(&[1, 2]), hash(&[2, 1]));

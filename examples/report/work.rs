@@ -1,0 +1,150 @@
+//! Measuring under way: sequence by sequence, method by method, within the time that there is.
+
+use crate::command::Command;
+use crate::gpu::Gpu;
+use crate::measure::{self, Output};
+use crate::methods::{DEFAULT, Group, Method, ONE_PATH};
+use crate::record::Run;
+use crate::suite::{Sequence, Suite, TURN};
+use crate::summary::Summary;
+use crate::truth::{self, Rgb, Truth};
+use crate::words::Chapter;
+use crate::{baseline, crops, plots};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// The constant α that pictures show.
+const CONSTANT: &str = "svgf 0.2";
+/// The code that decides what a run is.
+const CODE: [&str; 3] = ["shaders", "src", "examples/report"];
+/// The frame that pictures show, just after the turn.
+const SHOWN: u32 = TURN + 1;
+
+/// What is being measured, and what it may take.
+pub struct Work<'a> {
+    command: &'a Command,
+    gpu: &'a Gpu,
+    bar: ProgressBar,
+    deadline: Option<Instant>,
+    /// Runs that are still to do.
+    left: usize,
+    /// What there was no time for.
+    dropped: Vec<String>,
+}
+
+impl<'a> Work<'a> {
+    pub fn new(command: &'a Command, gpu: &'a Gpu) -> Self {
+        let suite = &command.suite;
+        let deadline = command.budget.map(|minutes| Instant::now() + Duration::from_secs_f64(60.0 * minutes));
+        let left = suite.sequences.len() * suite.methods.len();
+        Self { command, gpu, bar: progress(suite), deadline, left, dropped: Vec::new() }
+    }
+
+    /// What there was no time for.
+    pub fn finish(self) -> Vec<String> {
+        self.bar.finish_and_clear();
+        self.dropped
+    }
+
+    /// Measures a sequence, and draws it.
+    pub fn chapter(&mut self, sequence: &Sequence) -> Result<Chapter, Box<dyn Error>> {
+        let Command { suite, out, baselines, .. } = self.command;
+        let name = sequence.name.clone();
+        let folder = out.join("runs").join(&name);
+        fs::create_dir_all(&folder)?;
+        self.bar.set_message(format!("{name}: references"));
+        let export = self.command.export.then(|| out.join("sequences").join(&name));
+        if let Some(folder) = &export {
+            fs::create_dir_all(folder)?;
+        }
+        let counting = |frames: u32| self.bar.inc(frames.into());
+        let mut truth = Truth::find(self.gpu, suite, sequence, export.as_deref(), counting)?;
+        let mut summaries = Vec::new();
+        for method in &suite.methods {
+            self.bar.set_message(format!("{name}: {}", method.name));
+            match self.run(&name, method, &mut truth, &folder)? {
+                Some(run) => {
+                    if run.repeats < suite.repeats {
+                        let missing = suite.repeats - run.repeats;
+                        let what = format!("{name}, {}: {missing} of {} repeats", method.name, suite.repeats);
+                        let only = if run.repeats == 0 { ": its times are of frames that warmed up" } else { "" };
+                        self.dropped.push(what + only);
+                    }
+                    summaries.push(Summary::of(&run, &method.name, method.group));
+                }
+                None => self.dropped.push(format!("{name}, {}", method.name)),
+            }
+            self.left -= 1;
+            self.bar.inc(suite.frames.into());
+        }
+        for baseline in baselines {
+            if let Some(run) = baseline::run(baseline, &name, &truth.moments, suite.size)? {
+                summaries.push(Summary::of(&run, &baseline.name, Group::Baseline));
+            }
+        }
+        let plots = plots::draw(out, &name, &summaries)?;
+        let picture = self.picture(&name, &truth, &folder)?;
+        Ok(Chapter { sequence: name, summaries, plots, picture })
+    }
+
+    /// A run that was kept, or a new one; `None` where there is no time for it.
+    fn run(
+        &self,
+        sequence: &str,
+        method: &Method,
+        truth: &mut Truth,
+        folder: &Path,
+    ) -> Result<Option<Run>, Box<dyn Error>> {
+        let Command { suite, .. } = self.command;
+        let key = truth.hash.and_files(&CODE)?.and(&method.settings).and(&suite.frames);
+        let key = key.and(&self.gpu.adapter.name).to_string();
+        let path = folder.join(format!("{}.json", method.name));
+        // Without a budget, what an earlier one cut short is measured again.
+        let complete = |run: &Run| self.deadline.is_some() || run.repeats >= suite.repeats;
+        if let Some(run) = Run::load(&path, &key).filter(complete) {
+            return Ok(Some(run));
+        }
+        // Each run that is left gets its part of the time that is left, and repeats within that.
+        let time = self.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()));
+        if time == Some(Duration::ZERO) {
+            return Ok(None);
+        }
+        let share = time.map(|time| time / self.left as u32);
+        let Output { run, images } = measure::run(self.gpu, suite, truth, (sequence, method), key, share)?;
+        if let Some(shown) = truth.moments.iter().position(|moment| moment.index == SHOWN) {
+            let [width, height] = suite.size;
+            let path = folder.join(format!("{}.exr", method.name));
+            asvgf::image_io::write_exr_rgb(path, width, height, &images[shown])?;
+        }
+        run.save(&path)?;
+        Ok(Some(run))
+    }
+
+    /// One path per pixel, a constant and an adaptive α, and the truth, side by side.
+    fn picture(&self, sequence: &str, truth: &Truth, folder: &Path) -> Result<Option<String>, Box<dyn Error>> {
+        let size = self.command.suite.size;
+        let Some(moment) = truth.moments.iter().find(|moment| moment.index == SHOWN) else { return Ok(None) };
+        let mut tiles: Vec<(String, Vec<Rgb>)> = Vec::new();
+        for method in [ONE_PATH, CONSTANT, DEFAULT] {
+            // A budget may have left it out.
+            if let Ok(colors) = truth::read_colors(&folder.join(format!("{method}.exr")), size) {
+                tiles.push((method.into(), colors));
+            }
+        }
+        tiles.push((format!("reference, {} spp", self.command.suite.paths), moment.reference.clone()));
+        let name = format!("{sequence}-comparison.png");
+        crops::write(&self.command.out.join(&name), size, &tiles)?;
+        Ok(Some(name))
+    }
+}
+
+/// A bar of frames, references included. It does not show where there is no terminal.
+fn progress(suite: &Suite) -> ProgressBar {
+    let runs = suite.sequences.len() * (suite.methods.len() + 1);
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {elapsed} gone, {eta} to go");
+    let bar = ProgressBar::new(runs as u64 * u64::from(suite.frames));
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
