@@ -114,7 +114,7 @@ fn summary(options: &Options, sequence: &Sequence, gradient: Gradient) -> String
         out += &format!("left out, as the files do not have it: {absent}\n");
     }
     if gradient == Gradient::Off && options.constant.is_none() {
-        out += "note: without gradient or lambda alpha does not adapt, and changes of light lag; try --alpha constant:0.1\n";
+        out += "note: without gradient or lambda alpha does not adapt, and changes of light lag; try --alpha constant:0.2\n";
     }
     out += match sequence.eye {
         Eye::Given => "",
