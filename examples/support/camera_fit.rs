@@ -59,7 +59,7 @@ impl Planes {
         // Far enough apart that the rounding of depths does not count, and near enough to be of one plane.
         let span = 2 * (width.min(height) / 36).max(4);
         // Odd, so that all columns have their turn.
-        let every = width * height / PIXELS | 1;
+        let every = (width * height / PIXELS) | 1;
         for (p, step) in (0..width * height).step_by(every).flat_map(|p| [(p, 1), (p, width)]) {
             let within = if step == 1 { p % width + span < width } else { p / width + span < height };
             let q = p + span * step;
