@@ -13,10 +13,10 @@ mod denoise_options;
 mod film;
 #[path = "support/gpu.rs"]
 mod gpu;
-#[path = "support/hosted.rs"]
-mod hosted;
 #[path = "support/layers.rs"]
 mod layers;
+#[path = "support/replay.rs"]
+mod replay;
 #[path = "support/sequence.rs"]
 mod sequence;
 #[path = "support/times.rs"]
@@ -72,7 +72,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all(&options.out).map_err(|e| format!("--out {}: {e}", options.out.display()))?;
     let bar = progress("denoising");
     bar.set_length((sequence.last - sequence.first + 1).into());
-    let timed = hosted::denoise(&mut film, &sequence, |frame, film| {
+    let timed = replay::denoise(&mut film, &sequence, |frame, film| {
         bar.inc(1);
         write(options, film, frame)
     })?;
@@ -114,7 +114,7 @@ fn summary(options: &Options, sequence: &Sequence, gradient: Gradient) -> String
         out += &format!("left out, as the files do not have it: {absent}\n");
     }
     if gradient == Gradient::Off && options.constant.is_none() {
-        out += "note: without gradient or lambda alpha does not adapt, and changes of light lag; try --alpha constant:0.1\n";
+        out += "note: without gradient or lambda alpha does not adapt, and changes of light lag; try --alpha constant:0.2\n";
     }
     out += match sequence.eye {
         Eye::Given => "",

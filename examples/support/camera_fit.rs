@@ -7,8 +7,8 @@
 
 use crate::camera::{Camera, dot};
 
-/// Pixels between the points of a pair.
-const SPAN: usize = 8;
+/// About how many pixels of an image are looked at.
+const PIXELS: usize = 30_000;
 
 /// Fewest pairs to trust.
 const ENOUGH: usize = 200;
@@ -56,10 +56,14 @@ impl Planes {
         let normal = |i: usize| [normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]].map(f64::from);
         let aspect = height as f64 / width as f64;
         let mut planes = Self { apart: [[0.0; 9]; 9], between: [[0.0; 3]; 3], seen: Vec::new(), aspect };
-        for (p, step) in (0..width * height).flat_map(|p| [(p, 1), (p, width)]) {
-            let place = if step == 1 { p % width + SPAN < width } else { p / width + SPAN < height };
-            let q = p + SPAN * step;
-            if !place || !is_plane([p, p + SPAN / 2 * step, q], &normal, depths) {
+        // Far enough apart that the rounding of depths does not count, and near enough to be of one plane.
+        let span = 2 * (width.min(height) / 36).max(4);
+        // Odd, so that all columns have their turn.
+        let every = (width * height / PIXELS) | 1;
+        for (p, step) in (0..width * height).step_by(every).flat_map(|p| [(p, 1), (p, width)]) {
+            let within = if step == 1 { p % width + span < width } else { p / width + span < height };
+            let q = p + span * step;
+            if !within || !is_plane([p, p + span / 2 * step, q], &normal, depths) {
                 continue;
             }
             let n = normal(p);

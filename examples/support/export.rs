@@ -28,9 +28,12 @@ pub fn write_frame(path: &Path, film: &mut Film<'_>) -> Result<(), Box<dyn std::
     Ok(image_io::write_exr(path, &image)?)
 }
 
-/// The view that holds a layer, and the layer's components in its pixels.
-fn source(layer: Layer) -> Option<(View, fn([f32; 3]) -> [f32; 3])> {
-    let same = |pixel| pixel;
+/// A layer's components in a pixel of a view.
+type Components = fn([f32; 3]) -> [f32; 3];
+
+/// The view that holds a layer, and where in its pixels.
+fn source(layer: Layer) -> Option<(View, Components)> {
+    let same: Components = |pixel| pixel;
     Some(match layer {
         Layer::Color => (View::Noisy, same),
         Layer::Albedo => (View::Albedo, same),

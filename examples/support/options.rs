@@ -58,7 +58,7 @@ Output
   --outputs LIST        which images, separated by commas, or all           [denoised]
                         denoised, noisy, albedo, normal, depth, triangle-id, motion,
                         gradient, lambda, alpha, history-length, variance, non-finite,
-                        rays, emission, object, pair-now, pair-before
+                        rays, motion-error, emission, object, pair-now, pair-before
   --format LIST         png (tone-mapped), exr (numbers: linear radiance and the like
                         as 32-bit floats in R, G, B), or both as png,exr         [png]
   --exposure X          factor on radiance in PNG files                            [1]

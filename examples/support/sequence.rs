@@ -94,7 +94,10 @@ impl Sequence {
         let mut fitted = Some(Vec::new()).filter(|_| !given && fov_y.is_none());
         for frame in first..=last {
             let image = sequence.look_at(frame)?;
-            fitted = fitted.and_then(|list| Some([list, vec![sequence.fit(frame, &image)?]].concat()));
+            fitted = fitted.and_then(|mut cameras: Vec<Camera>| {
+                cameras.push(sequence.fit(frame, &image)?);
+                Some(cameras)
+            });
             looked(last - first + 1);
         }
         if let Some(cameras) = fitted {
@@ -242,7 +245,7 @@ fn numbers(folder: &Path) -> Result<(u32, u32), SequenceError> {
     let number = |entry: fs::DirEntry| {
         let name = entry.file_name();
         let digits = name.to_str()?.strip_prefix("frame_")?.strip_suffix(".exr")?;
-        digits.parse::<u32>().ok().filter(|_| digits.len() >= 4)
+        digits.parse::<u32>().ok().filter(|_| (4..=9).contains(&digits.len()))
     };
     let numbers: Vec<u32> = entries.filter_map(|entry| number(entry.ok()?)).collect();
     let range = numbers.iter().min().zip(numbers.iter().max());

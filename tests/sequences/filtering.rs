@@ -6,7 +6,7 @@ use crate::folder::{Folder, add, wall};
 use crate::gpu::Gpu;
 use crate::layers::{Layer, Names};
 use crate::sequence::Sequence;
-use crate::{hosted, scoring, tracing};
+use crate::{replay, scoring, tracing};
 use asvgf::image_io::write_exr_rgb;
 use asvgf::scene::{GpuScene, builtin};
 use asvgf::{Camera, FilterSettings, Gradient, Settings, View};
@@ -23,7 +23,7 @@ fn denoised(sequence: &Sequence, settings: Settings) -> Vec<Vec<[f32; 3]>> {
     let gpu = Gpu::new().unwrap();
     let mut film = Film::new(&gpu, sequence.size, settings).unwrap();
     let mut frames = Vec::new();
-    let times = hosted::denoise(&mut film, sequence, |_, film| {
+    let times = replay::denoise(&mut film, sequence, |_, film| {
         frames.push(film.numbers(View::Denoised)?);
         Ok(())
     });

@@ -16,12 +16,12 @@ mod export;
 mod film;
 #[path = "../../examples/support/gpu.rs"]
 mod gpu;
-#[path = "../../examples/support/hosted.rs"]
-mod hosted;
 #[path = "../../examples/support/layers.rs"]
 mod layers;
 #[path = "../../examples/support/metrics.rs"]
 mod metrics;
+#[path = "../../examples/support/replay.rs"]
+mod replay;
 #[path = "../../examples/support/scoring.rs"]
 mod scoring;
 #[path = "../../examples/support/sequence.rs"]
