@@ -1,0 +1,58 @@
+//! The command line.
+
+use crate::command::{Command, Request, parse};
+
+fn command(line: &str) -> Result<Command, String> {
+    match parse(line.split_whitespace().map(Into::into)) {
+        Ok(Request::Report(command)) => Ok(command),
+        Ok(Request::Help) => Err("help".into()),
+        Err(usage) => Err(usage.to_string()),
+    }
+}
+
+#[test]
+fn nothing_said_is_the_quick_suite() {
+    let command = command("").unwrap();
+    assert_eq!((command.suite.name, command.suite.size, command.budget), ("quick", [96, 54], None));
+    assert_eq!(command.suite.sequences.len(), 3);
+    assert!(command.baselines.is_empty() && !command.export);
+}
+
+#[test]
+fn everything_said() {
+    let line =
+        "--size 64x48 --suite full --scene pillars --budget 5 --out there --baseline a=b/c --baseline d=e --sequences";
+    let command = command(line).unwrap();
+    assert_eq!((command.suite.name, command.suite.size, command.budget), ("full", [64, 48], Some(5.0)));
+    let names: Vec<_> = command.suite.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
+    assert_eq!(names.len(), 6);
+    assert!(names.iter().all(|name| name.starts_with("pillars-")));
+    assert_eq!(command.out.to_str(), Some("there"));
+    let baselines: Vec<_> = command.baselines.iter().map(|b| (b.name.as_str(), b.folder.to_str())).collect();
+    assert_eq!(baselines, [("a", Some("b/c")), ("d", Some("e"))]);
+    assert!(command.export);
+}
+
+#[test]
+fn a_file_is_one_sequence() {
+    let command = command("--scene some/Helmet.gltf").unwrap();
+    assert_eq!(command.suite.sequences.len(), 1);
+    assert_eq!(command.suite.sequences[0].name, "Helmet");
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    for (line, part) in [
+        ("--suite slow", "must be one of quick, full"),
+        ("--size 10x10", "must be WIDTHxHEIGHT"),
+        ("--budget 0", "--budget 0"),
+        ("--baseline nameless", "must be NAME=DIR"),
+        ("--baseline =dir", "must be NAME=DIR"),
+        ("--other", "--other"),
+        ("stray", "stray"),
+        ("--help", "help"),
+    ] {
+        let error = command(line).err().unwrap();
+        assert!(error.contains(part), "{line}: {error}");
+    }
+}
