@@ -44,7 +44,7 @@ pub fn facts(command: &Command, gpu: &Gpu) -> Vec<String> {
         format!("References of {} paths per pixel, with random numbers of their own", suite.paths),
         format!("{} ({:?}), {} {}", adapter.name, adapter.backend, adapter.driver, adapter.driver_info),
         format!("Times from {clock}"),
-        format!("`cargo run --release --example report -- {}`", arguments.join(" ")),
+        format!("`cargo run --release --features metrics --example report -- {}`", arguments.join(" ")),
         format!("Version {} of the crate", env!("CARGO_PKG_VERSION")),
     ]
 }
