@@ -37,7 +37,7 @@ impl Suite {
             size: [96, 54],
             frames: 16,
             paths: 256,
-            repeats: 1,
+            repeats: 3,
             sequences: ["static", "blink", "move-light"].map(|animation| built_in("cornell", animation)).to_vec(),
             methods: methods::quick(),
         }

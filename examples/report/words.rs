@@ -59,10 +59,11 @@ pub fn report(context: &Context, chapters: &[Chapter]) -> String {
 /// relMSE of each method in each sequence.
 fn across(chapters: &[Chapter]) -> String {
     let mut out = String::from("\n## All sequences: relMSE\n\n| method |");
+    let error = |chapter: &Chapter, name: &str| verdict::find(&chapter.summaries, name).and_then(Summary::error);
     for chapter in chapters {
         let _ = write!(out, " {} |", chapter.sequence);
     }
-    let _ = writeln!(out, "\n|---|{}", "--:|".repeat(chapters.len()));
+    let _ = writeln!(out, " in parts of {DEFAULT} (geometric mean) |\n|---|{}", "--:|".repeat(chapters.len() + 1));
     let mut names: Vec<&str> = Vec::new();
     for summary in chapters.iter().flat_map(|chapter| &chapter.summaries) {
         if !names.contains(&summary.method.as_str()) {
@@ -72,10 +73,12 @@ fn across(chapters: &[Chapter]) -> String {
     for name in names {
         let _ = write!(out, "| {name} |");
         for chapter in chapters {
-            let error = verdict::find(&chapter.summaries, name).and_then(Summary::error);
-            let _ = write!(out, " {} |", number(error, 5));
+            let _ = write!(out, " {} |", number(error(chapter, name), 5));
         }
-        out.push('\n');
+        // Of all sequences or of none: they are not equally hard.
+        let logarithms = chapters.iter().map(|c| Some((error(c, name)? / error(c, DEFAULT)?).ln()));
+        let sum: Option<f64> = logarithms.sum();
+        let _ = writeln!(out, " {} |", number(sum.map(|sum| (sum / chapters.len() as f64).exp()), 3));
     }
     out
 }

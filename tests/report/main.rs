@@ -30,7 +30,7 @@ mod measure;
 mod methods;
 #[path = "../../examples/support/options.rs"]
 mod options;
-#[path = "../../examples/report/plots.rs"]
+#[path = "../../examples/report/plots/mod.rs"]
 mod plots;
 #[path = "../../examples/report/record.rs"]
 mod record;

@@ -86,7 +86,7 @@ fn words_come_from_the_numbers() {
 fn plots_are_drawn_and_labelled() {
     let folder = Folder::new("plots");
     let names = plots::draw(&folder.0, "box", &summaries()).unwrap();
-    assert_eq!(names.len(), 5);
+    assert_eq!(names.len(), 6);
     for name in names {
         let svg = std::fs::read_to_string(folder.0.join(format!("{name}.svg"))).unwrap();
         assert!(svg.contains(DEFAULT) && svg.trim_end().ends_with("</svg>"), "{name}");
