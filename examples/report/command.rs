@@ -17,6 +17,7 @@ Usage: cargo run --release --features metrics --example report -- [OPTIONS]
   --scene SCENE         only this scene: cornell, pillars, or a .gltf, .glb or .obj file
                         with its first animation                    [the suite's scenes]
   --size WxH            pixels                          [quick 96x54, full 640x360]
+  --paths N             paths per pixel of the references      [quick 256, full 8192]
   --budget MINUTES      measure no longer than about so long: repeats are dropped before
                         methods, and the report says which                       [none]
   --out DIR             folder for everything; made if missing           [target/report]
@@ -58,7 +59,7 @@ pub struct Baseline {
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let mut suite = Suite::quick();
-    let (mut scene, mut size, mut export) = (None, None, false);
+    let (mut scene, mut size, mut paths, mut export) = (None, None, None, false);
     let (mut budget, mut out, mut baselines) = (None, PathBuf::from("target/report"), Vec::new());
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
@@ -68,7 +69,9 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
                 export = true;
                 continue;
             }
-            lexopt::Arg::Long(name @ ("suite" | "scene" | "size" | "budget" | "out" | "baseline")) => name.to_owned(),
+            lexopt::Arg::Long(name @ ("suite" | "scene" | "size" | "paths" | "budget" | "out" | "baseline")) => {
+                name.to_owned()
+            }
             _ => return Err(argument.unexpected().into()),
         };
         if name == "out" {
@@ -80,6 +83,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
             "suite" => suite = value.one_of(&[("quick", Suite::quick as fn() -> Suite), ("full", Suite::full)])?(),
             "scene" => scene = Some(value.text),
             "size" => size = Some(pixels(&value)?),
+            "paths" => paths = Some(value.whole(1..=1_000_000)?),
             "budget" => budget = Some(value.number(0.1..=1e5)?.into()),
             _ => baselines.push(baseline(&value)?),
         }
@@ -88,6 +92,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         suite.only(&scene);
     }
     suite.size = size.unwrap_or(suite.size);
+    suite.paths = paths.unwrap_or(suite.paths);
     Ok(Request::Report(Command { suite, budget, out, baselines, export }))
 }
 

@@ -4,6 +4,7 @@ use crate::record::{Row, Settling, finite};
 use crate::suite::TURN;
 use crate::truth::{Moment, RELIT, Rgb};
 use asvgf::metrics::{self, MetricError, PIXELS_PER_DEGREE, Pair};
+use std::thread;
 
 /// A ghost is looked for in what changed less than so many frames ago.
 const GHOST: u32 = 8;
@@ -14,25 +15,46 @@ const BANDS: [f64; 2] = [0.1, 0.02];
 /// Share of the pixels that must be relit in one frame for that to be a step of the light.
 const STEP: f64 = 0.5;
 
-/// Fills in the errors of each frame.
+/// Fills in the errors of each frame, on all of the processor's cores: FLIP takes longer than a GPU's frame by far.
 pub fn fill(rows: &mut [Row], images: &[Vec<Rgb>], moments: &[Moment], size: [u32; 2]) -> Result<(), MetricError> {
-    for (i, row) in rows.iter_mut().enumerate() {
-        let moment = &moments[i];
-        let pair = Pair::new(&images[i], &moment.reference)?.counting(&moment.counted)?;
-        row.rel_mse = finite(metrics::relative_mse(&pair));
-        row.rmse = finite(metrics::rmse(&pair));
-        row.bias = finite(metrics::bias(&pair));
-        row.ghost = finite(metrics::ghost_energy(&pair, &moment.ages, GHOST)?);
-        if i > 0 {
-            let before = Pair::new(&images[i - 1], &moments[i - 1].reference)?.counting(&moments[i - 1].counted)?;
-            row.flicker = finite(metrics::flicker(&pair, &before, &moment.steady)?);
-        }
-        let [image, reference] = [&images[i], &moment.reference].map(|colors| metrics::encode(colors, 1.0));
-        let shown = Pair::new(&image, &reference)?.counting(&moment.counted)?;
-        row.psnr = finite(metrics::psnr(&shown, 1.0));
-        row.ssim = finite(metrics::ssim(&shown, size)?);
-        row.flip = finite(metrics::flip(&shown, size, PIXELS_PER_DEGREE)?.mean);
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let part = rows.len().div_ceil(cores).max(1);
+    thread::scope(|scope| {
+        let parts = rows.chunks_mut(part).enumerate().map(|(number, rows)| {
+            let first = number * part;
+            scope.spawn(move || {
+                let mut frames = rows.iter_mut().enumerate();
+                frames.try_for_each(|(i, row)| fill_one(row, first + i, images, moments, size))
+            })
+        });
+        // All are started before the first is waited for.
+        let parts: Vec<_> = parts.collect();
+        parts.into_iter().try_for_each(|part| part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    })
+}
+
+fn fill_one(
+    row: &mut Row,
+    i: usize,
+    images: &[Vec<Rgb>],
+    moments: &[Moment],
+    size: [u32; 2],
+) -> Result<(), MetricError> {
+    let moment = &moments[i];
+    let pair = Pair::new(&images[i], &moment.reference)?.counting(&moment.counted)?;
+    row.rel_mse = finite(metrics::relative_mse(&pair));
+    row.rmse = finite(metrics::rmse(&pair));
+    row.bias = finite(metrics::bias(&pair));
+    row.ghost = finite(metrics::ghost_energy(&pair, &moment.ages, GHOST)?);
+    if i > 0 {
+        let before = Pair::new(&images[i - 1], &moments[i - 1].reference)?.counting(&moments[i - 1].counted)?;
+        row.flicker = finite(metrics::flicker(&pair, &before, &moment.steady)?);
     }
+    let [image, reference] = [&images[i], &moment.reference].map(|colors| metrics::encode(colors, 1.0));
+    let shown = Pair::new(&image, &reference)?.counting(&moment.counted)?;
+    row.psnr = finite(metrics::psnr(&shown, 1.0));
+    row.ssim = finite(metrics::ssim(&shown, size)?);
+    row.flip = finite(metrics::flip(&shown, size, PIXELS_PER_DEGREE)?.mean);
     Ok(())
 }
 

@@ -20,10 +20,10 @@ fn nothing_said_is_the_quick_suite() {
 
 #[test]
 fn everything_said() {
-    let line =
-        "--size 64x48 --suite full --scene pillars --budget 5 --out there --baseline a=b/c --baseline d=e --sequences";
+    let line = "--size 64x48 --paths 99 --suite full --scene pillars --budget 5 --out there --baseline a=b/c --baseline d=e --sequences";
     let command = command(line).unwrap();
     assert_eq!((command.suite.name, command.suite.size, command.budget), ("full", [64, 48], Some(5.0)));
+    assert_eq!(command.suite.paths, 99);
     let names: Vec<_> = command.suite.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
     assert_eq!(names.len(), 6);
     assert!(names.iter().all(|name| name.starts_with("pillars-")));

@@ -25,6 +25,7 @@ impl Plot for ErrorTime<'_> {
             .y_label_area_size(LABELS + 24)
             .build_cartesian_2d(room(times), room(errors))?;
         let mesh = &mut chart.configure_mesh();
+        mesh.x_label_formatter(&sparse).y_label_formatter(&sparse);
         mesh.x_desc("milliseconds per frame").y_desc("relative MSE").label_style(FONT).max_light_lines(1).draw()?;
         let front = verdict::pareto(&shown).into_iter().filter_map(Summary::point);
         chart.draw_series(LineSeries::new(front, BLACK.mix(0.5).stroke_width(2)))?;
@@ -46,4 +47,11 @@ fn free([x, y]: [i32; 2], labels: &[[i32; 2]]) -> [i32; 2] {
     let covers = |place: [i32; 2]| labels.iter().any(|l| (l[0] - x).abs() < wide && (l[1] - place[1]).abs() < high);
     let near = (0..40).flat_map(|step| [[x, y + high * step], [x, y - high * step]]);
     near.into_iter().find(|&place| !covers(place)).unwrap_or([x, y])
+}
+
+/// A number that begins with 1, 2 or 5; the others would stand too close.
+fn sparse(value: &f64) -> String {
+    let digit = value / 10_f64.powf((value.log10() + 1e-9).floor());
+    let round = [1.0, 2.0, 5.0].iter().any(|first| (digit - first).abs() < 1e-6);
+    if round { format!("{}", (value * 1e9).round() / 1e9) } else { String::new() }
 }
