@@ -84,7 +84,7 @@ fn report(command: &Command) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(command.out.join("runs")).map_err(|e| format!("--out {}: {e}", command.out.display()))?;
     let gpu = Gpu::new()?;
     let mut work = Work::new(command, &gpu);
-    let chapters = suite.sequences.iter().map(|sequence| work.chapter(sequence));
+    let chapters = suite.sequences.iter().filter_map(|sequence| work.chapter(sequence).transpose());
     let chapters = chapters.collect::<Result<Vec<_>, _>>()?;
     let dropped = work.finish();
     let rows: Vec<_> = chapters.iter().flat_map(|chapter| &chapter.summaries).flat_map(|s| s.rows.clone()).collect();

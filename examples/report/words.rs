@@ -30,7 +30,10 @@ pub fn report(context: &Context, chapters: &[Chapter]) -> String {
         let _ = writeln!(out, "- {fact}");
     }
     if !context.dropped.is_empty() {
-        let _ = writeln!(out, "\nLeft out to keep within the budget:\n");
+        let _ = writeln!(
+            out,
+            "\nLeft out to keep within the budget (with no repeat, times are of frames that warmed up):\n"
+        );
         for what in &context.dropped {
             let _ = writeln!(out, "- {what}");
         }

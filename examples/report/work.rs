@@ -49,12 +49,17 @@ impl<'a> Work<'a> {
         self.dropped
     }
 
-    /// Measures a sequence, and draws it.
-    pub fn chapter(&mut self, sequence: &Sequence) -> Result<Chapter, Box<dyn Error>> {
+    /// Measures a sequence, and draws it; `None` where there is no time left for any of it.
+    pub fn chapter(&mut self, sequence: &Sequence) -> Result<Option<Chapter>, Box<dyn Error>> {
         let Command { suite, out, baselines, .. } = self.command;
         let name = sequence.name.clone();
         let folder = out.join("runs").join(&name);
         fs::create_dir_all(&folder)?;
+        // What was kept takes no time.
+        if self.time() == Some(Duration::ZERO) && fs::read_dir(&folder)?.next().is_none() {
+            self.dropped.push(format!("{name}: all of it"));
+            return Ok(None);
+        }
         self.bar.set_message(format!("{name}: references"));
         let export = self.command.export.then(|| out.join("sequences").join(&name));
         if let Some(folder) = &export {
@@ -62,23 +67,23 @@ impl<'a> Work<'a> {
         }
         let counting = |frames: u32| self.bar.inc(frames.into());
         let mut truth = Truth::find(self.gpu, suite, sequence, export.as_deref(), counting)?;
-        let mut summaries = Vec::new();
+        let (mut summaries, mut missing) = (Vec::new(), Vec::new());
         for method in &suite.methods {
             self.bar.set_message(format!("{name}: {}", method.name));
             match self.run(&name, method, &mut truth, &folder)? {
                 Some(run) => {
                     if run.repeats < suite.repeats {
-                        let missing = suite.repeats - run.repeats;
-                        let what = format!("{name}, {}: {missing} of {} repeats", method.name, suite.repeats);
-                        let only = if run.repeats == 0 { ": its times are of frames that warmed up" } else { "" };
-                        self.dropped.push(what + only);
+                        missing.push(format!("{} ({} repeats of {})", method.name, run.repeats, suite.repeats));
                     }
                     summaries.push(Summary::of(&run, &method.name, method.group));
                 }
-                None => self.dropped.push(format!("{name}, {}", method.name)),
+                None => missing.push(format!("{} (all of it)", method.name)),
             }
             self.left -= 1;
             self.bar.inc(suite.frames.into());
+        }
+        if !missing.is_empty() {
+            self.dropped.push(format!("{name}: {}", missing.join(", ")));
         }
         for baseline in baselines {
             if let Some(run) = baseline::run(baseline, &name, &truth.moments, suite.size)? {
@@ -87,7 +92,12 @@ impl<'a> Work<'a> {
         }
         let plots = plots::draw(out, &name, &summaries)?;
         let picture = self.picture(&name, &truth, &folder)?;
-        Ok(Chapter { sequence: name, summaries, plots, picture })
+        Ok(Some(Chapter { sequence: name, summaries, plots, picture }))
+    }
+
+    /// Time that is left, if there is an end to it.
+    fn time(&self) -> Option<Duration> {
+        self.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()))
     }
 
     /// A run that was kept, or a new one; `None` where there is no time for it.
@@ -108,7 +118,7 @@ impl<'a> Work<'a> {
             return Ok(Some(run));
         }
         // Each run that is left gets its part of the time that is left, and repeats within that.
-        let time = self.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()));
+        let time = self.time();
         if time == Some(Duration::ZERO) {
             return Ok(None);
         }

@@ -66,7 +66,7 @@ fn words_come_from_the_numbers() {
     let text = report(&context, &[chapter(summaries())]);
     for part in [
         "- Suite quick\n",
-        "Left out to keep within the budget:\n\n- box, 64 spp\n",
+        "to keep within the budget (with no repeat, times are of frames that warmed up):\n\n- box, 64 spp\n",
         "| a-svgf | 2.00 (2.00…2.00) | 0.01000 | – |",
         "| a-svgf | 10 % | 3 | – | 75.0 % |",
         "- Equal time: no method that takes as long as a-svgf or less has a smaller error.",
