@@ -16,7 +16,7 @@ impl Hash {
     /// Of this, and then of files and folders of this repository.
     pub fn and_files(mut self, paths: &[&str]) -> std::io::Result<Self> {
         for path in paths {
-            self.file(&Path::new(env!("CARGO_MANIFEST_DIR")).join(path))?;
+            self.file(&root().join(path))?;
         }
         Ok(self)
     }
@@ -57,4 +57,10 @@ impl fmt::Display for Hash {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:016x}", self.0)
     }
+}
+
+/// Where the program was built or, if it was carried to another machine, the current folder.
+fn root() -> &'static Path {
+    let built = Path::new(env!("CARGO_MANIFEST_DIR"));
+    if built.is_dir() { built } else { Path::new(".") }
 }

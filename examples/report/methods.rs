@@ -78,7 +78,7 @@ pub fn all() -> Vec<Method> {
         methods.push(Method { name: name.into(), group: Group::Ablation, settings: filter(with(change)) });
     }
     for iterations in [0, 1, 2, 3, 5] {
-        let name = format!("{iterations} iterations");
+        let name = if iterations == 1 { "1 iteration".into() } else { format!("{iterations} iterations") };
         let settings = filter(FilterSettings { iterations, ..Default::default() });
         methods.push(Method { name, group: Group::Iterations, settings });
     }
