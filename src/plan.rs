@@ -343,7 +343,7 @@ pub enum Image {
     PairsBefore(u8),
     /// Products of both.
     PairsProduct(u8),
-    /// Numerator and denominator of λ; two take turns.
+    /// Numerator and denominator of λ on the stratum's surface, and on any; two take turns.
     Gradient(u8),
     /// What the history is multiplied with.
     Ratio,
@@ -371,7 +371,7 @@ impl Image {
             Self::History | Self::Samples | Self::Repeats | Self::Color(_) => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
             Self::PairsProduct(_) => TextureFormat::R32Float,
-            Self::Gradient(_) => TextureFormat::Rg32Float,
+            Self::Gradient(_) => TextureFormat::Rgba32Float,
             Self::Motion | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
                 TextureFormat::Rgba32Float
             }
