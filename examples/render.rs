@@ -1,32 +1,48 @@
 //! Renders a scene, denoises it, and writes pictures: `cargo run --release --example render -- --help`.
 
+#[path = "support/arguments.rs"]
+mod arguments;
+#[allow(dead_code, reason = "shared with `denoise`, which reads what is written here")]
+#[path = "support/camera.rs"]
+mod camera;
 #[path = "support/compare.rs"]
 mod compare;
+#[path = "support/export.rs"]
+mod export;
 #[path = "support/film.rs"]
 mod film;
 #[path = "support/gpu.rs"]
 mod gpu;
+#[allow(dead_code, reason = "shared with `denoise`, which reads what is written here")]
+#[path = "support/layers.rs"]
+mod layers;
 #[path = "support/options.rs"]
 mod options;
 #[path = "support/stage.rs"]
 mod stage;
 #[path = "support/table.rs"]
 mod table;
+#[path = "support/times.rs"]
+mod times;
 #[path = "support/tone.rs"]
 mod tone;
+#[path = "support/tracing.rs"]
+mod tracing;
 
+use arguments::{Format, Usage};
 use asvgf::scene::GpuScene;
 use asvgf::{Gradient, Settings, View, image_io};
 use compare::Tile;
 use film::Film;
 use gpu::Gpu;
 use indicatif::{ProgressBar, ProgressStyle};
-use options::{Format, Options, Request, Usage, Viewpoint};
+use options::{Options, Request, Viewpoint};
 use stage::Stage;
 use std::error::Error;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use tracing::Reference;
 
 fn main() -> ExitCode {
     let result = match options::parse(std::env::args_os().skip(1)) {
@@ -63,11 +79,12 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     // The other kind of α, with the same noise.
     let mut other = options.compare.map(|_| Film::new(&gpu, options.size, other(&options.settings))).transpose()?;
     let mut reference = (options.compare.or(options.reference))
-        .map(|_| Film::new(&gpu, options.size, reference_settings(&options.settings)))
+        .map(|_| Reference::new(&gpu, options.size, &options.settings))
         .transpose()?;
 
     let bar = progress(options);
-    let mut times = Vec::new();
+    let mut timed = Vec::new();
+    let mut cameras = Vec::new();
     let mut truth = Vec::new();
     let last = options.start_frame + options.frames - 1;
     for frame in options.start_frame..=last {
@@ -77,19 +94,26 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         scene.update(&gpu.device, &mut encoder, &pose)?;
         gpu.queue.submit([encoder.finish()]);
         let camera = stage.camera(&pose, frame);
-        times.push(film.render(&scene, camera, frame).map_err(|e| blame(e, &options.viewpoint))?);
+        timed.push(tracing::render(&mut film, &scene, camera, frame).map_err(|e| blame(e, &options.viewpoint))?);
         bar.inc(options.settings.tracer.samples.into());
         for &view in &options.outputs {
-            write(options, &mut film, view, frame)?;
+            match write(options, &mut film, view, frame) {
+                Err(error) if options.every_output && is_absent(&*error) => {}
+                result => result?,
+            }
+        }
+        if options.sequence {
+            export::write_frame(&options.out.join(format!("frame_{frame:04}.exr")), &mut film)?;
+            cameras.push(camera);
         }
         if let Some(other) = &mut other {
-            other.render(&scene, camera, frame)?;
+            tracing::render(other, &scene, camera, frame)?;
             bar.inc(options.settings.tracer.samples.into());
         }
         let paths = if frame == last { options.compare.max(options.reference) } else { options.reference };
-        if let (Some(film), Some(paths)) = (&mut reference, paths) {
+        if let (Some(reference), Some(paths)) = (&mut reference, paths) {
             bar.set_message(format!("reference of frame {frame}"));
-            truth = film.converge(&scene, camera, paths, |paths| bar.inc(paths.into()))?;
+            truth = reference.converge(&scene, camera, paths, |paths| bar.inc(paths.into()))?;
             if options.reference.is_some() {
                 write_reference(options, &truth, frame)?;
             }
@@ -98,12 +122,15 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     if let Some(other) = &mut other {
         write_comparison(options, &mut film, other, truth)?;
     }
+    if options.sequence {
+        export::write_manifest(&options.out, options.size, &cameras)?;
+    }
     bar.finish_and_clear();
     if let Some(plan) = film.denoiser.plan().filter(|_| options.explain) {
         say(&table::plan(plan, &scene.traits()));
     }
     let rays = film.numbers(View::Rays)?.iter().map(|pixel| f64::from(pixel[0])).sum();
-    say(&table::times(&times, rays, options, &gpu));
+    say(&times::table(&timed, Some(rays), options.size, &gpu));
     let pictures = if options.compare.is_some() { ", and comparison.png" } else { "" };
     say(&format!("{} frames in {}{pictures}\n", options.frames, options.out.display()));
     Ok(())
@@ -145,13 +172,6 @@ fn other(settings: &Settings) -> Settings {
     Settings { filter, ..settings }
 }
 
-/// Paths that share no random number with those they are compared with.
-fn reference_settings(settings: &Settings) -> Settings {
-    let mut settings = Settings { mode: asvgf::Mode::Reference, ..settings.clone() };
-    settings.tracer.seed ^= 0x5eed_0000;
-    settings
-}
-
 /// An error of the camera is one of the options that made it.
 fn blame(error: asvgf::Error, viewpoint: &Viewpoint) -> Box<dyn Error> {
     match error {
@@ -160,6 +180,11 @@ fn blame(error: asvgf::Error, viewpoint: &Viewpoint) -> Box<dyn Error> {
         }
         _ => error.into(),
     }
+}
+
+/// Whether an image was asked for that the scene does not have.
+fn is_absent(error: &(dyn Error + 'static)) -> bool {
+    matches!(error.downcast_ref(), Some(asvgf::Error::NoView { .. }))
 }
 
 fn path(options: &Options, name: &str, frame: u32, format: Format) -> PathBuf {

@@ -4,6 +4,9 @@
 #import asvgf::color::{is_finite, luminance}
 #import asvgf::packing::{unpack_rgb, tap_color, unpack_normal, unpack_length, unpack_lambda}
 #import asvgf::random::hash
+#if VIEW >= 17
+#import asvgf::strata::{is_sample_pixel, place_now, place_before, stratum_of}
+#endif
 
 #if VIEW == 0
 // Denoised.
@@ -43,6 +46,20 @@
 // Error of the motion.
 @group(0) @binding(5) var guide: texture_2d<u32>;
 @group(0) @binding(7) var motion: texture_2d<f32>;
+#endif
+#if VIEW == 15
+@group(0) @binding(4) var emission: texture_2d<u32>;
+#endif
+#if VIEW == 16
+@group(0) @binding(6) var object: texture_2d<u32>;
+#endif
+#if VIEW >= 17
+// The gradient's pairs: now, then before.
+@group(0) @binding(1) var samples: texture_2d<u32>;
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+#ifdef ALBEDO
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+#endif
 #endif
 #if VIEW == 7
 // Gradient.
@@ -165,6 +182,30 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     let implied = vec3(rest.xy - point, rest.z);
     return select(vec3(0.0), textureLoad(motion, pixel, 0).xyz - implied, depth > 0.0 && rest.z > 0.0);
 #endif
+#if VIEW == 15
+    return unpack_rgb(textureLoad(emission, pixel, 0).xy);
+#endif
+#if VIEW == 16
+    let id = textureLoad(object, pixel, 0).x;
+    return vec3(f32(id & 0xffffu), f32(id >> 16u), 1.0);
+#endif
+#if VIEW >= 17
+    let stratum = vec2<i32>(stratum_of(vec2<u32>(pixel)));
+    let record = textureLoad(samples, stratum, 0);
+    if !is_sample_pixel(record, vec2<u32>(pixel)) {
+        return vec3(-1.0);
+    }
+#if VIEW == 17
+    let place = place_now(record, stratum);
+#else
+    let place = place_before(record, stratum);
+#endif
+    var r = unpack_rgb(textureLoad(radiance, place, 0).xy);
+#ifdef ALBEDO
+    r *= textureLoad(albedo, pixel, 0).xyz;
+#endif
+    return r;
+#endif
 }
 
 #ifdef TARGET_PICTURE
@@ -189,6 +230,16 @@ fn linear_to_srgb(c: vec3<f32>) -> vec3<f32> {
     return select(1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, 12.92 * c, c <= vec3(0.0031308));
 }
 
+fn developed(radiance: vec3<f32>) -> vec3<f32> {
+    let exposed = clamp(radiance * show.exposure, vec3(0.0), vec3(1e6));
+    return linear_to_srgb(clamp(tone_map(exposed), vec3(0.0), vec3(1.0)));
+}
+
+fn color_of(id: u32) -> vec3<f32> {
+    let h = hash(id);
+    return vec3(f32(h & 255u), f32((h >> 8u) & 255u), f32((h >> 16u) & 255u)) / 255.0;
+}
+
 // Black, blue, magenta, orange, white: brightness grows all the way.
 fn ramp(x: f32) -> vec3<f32> {
     let t = clamp(x, 0.0, 1.0);
@@ -197,7 +248,13 @@ fn ramp(x: f32) -> vec3<f32> {
 
 fn picture(v: vec3<f32>) -> vec3<f32> {
 #if VIEW <= 1
-    return linear_to_srgb(clamp(tone_map(clamp(v * show.exposure, vec3(0.0), vec3(1e6))), vec3(0.0), vec3(1.0)));
+    return developed(v);
+#endif
+#if VIEW == 15
+    return developed(v);
+#endif
+#if VIEW >= 17
+    return developed(v);
 #endif
 #if VIEW == 2
     return linear_to_srgb(v);
@@ -209,8 +266,10 @@ fn picture(v: vec3<f32>) -> vec3<f32> {
     return vec3(v.x / (v.x + show.range));
 #endif
 #if VIEW == 5
-    let h = hash(u32(v.x) + 65536u * u32(v.y));
-    return vec3(f32(h & 255u), f32((h >> 8u) & 255u), f32((h >> 16u) & 255u)) / 255.0 * v.z;
+    return color_of(u32(v.x) + 65536u * u32(v.y)) * v.z;
+#endif
+#if VIEW == 16
+    return color_of(u32(v.x) + 65536u * u32(v.y));
 #endif
 #if VIEW == 14
     return vec3(0.5 + 0.5 * clamp(v.xy / show.range, vec2(-1.0), vec2(1.0)), 0.5);

@@ -72,7 +72,8 @@ pub fn read_exr(path: impl AsRef<Path>) -> Result<Channels, ImageError> {
     let error = |reason: String| ImageError::new(path, reason);
     let bytes = read_file(path).map_err(error)?;
     // The size is looked at before memory is taken for it.
-    let meta = MetaData::read_from_buffered(bytes.as_slice(), false).map_err(|cause| error(cause.to_string()))?;
+    let broken = |cause: exr::error::Error| error(format!("is no EXR file, or is damaged or cut short: {cause}"));
+    let meta = MetaData::read_from_buffered(bytes.as_slice(), false).map_err(broken)?;
     let mut total = 0_u64;
     for header in &meta.headers {
         let (width, height) = (header.layer_size.width(), header.layer_size.height());
@@ -90,7 +91,7 @@ pub fn read_exr(path: impl AsRef<Path>) -> Result<Channels, ImageError> {
         .all_layers()
         .all_attributes()
         .from_buffered(Cursor::new(bytes))
-        .map_err(|cause| error(cause.to_string()))?;
+        .map_err(broken)?;
     let size = image.layer_data.first().map(|layer| layer.size).ok_or_else(|| error("has no layers".into()))?;
     let mut channels = Vec::new();
     let mut names = HashSet::new();

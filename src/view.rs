@@ -40,11 +40,19 @@ pub enum View {
     /// difference of the previous depths in blue. Zero but for objects that move; if the whole image changes with the camera, a
     /// sign, a unit or a matrix is wrong. Picture: grey is none.
     MotionError = 14,
+    /// Linear radiance that the visible surface or the sky emits towards the eye. Picture: tone-mapped.
+    Emission = 15,
+    /// Number of the object that was hit, or of nothing: low 16 bits in red, high 16 in green. Picture: one colour each.
+    Object = 16,
+    /// What the gradient's paths reflect now, times the albedo, in the pixels where they are; −1 elsewhere. Picture: tone-mapped.
+    PairNow = 17,
+    /// What they reflected in the last frame, likewise.
+    PairBefore = 18,
 }
 
 impl View {
     /// Every view, in order.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 19] = [
         Self::Denoised,
         Self::Noisy,
         Self::Albedo,
@@ -60,6 +68,10 @@ impl View {
         Self::NonFinite,
         Self::Rays,
         Self::MotionError,
+        Self::Emission,
+        Self::Object,
+        Self::PairNow,
+        Self::PairBefore,
     ];
 
     /// The name in lower case with hyphens: `history-length`.
@@ -80,6 +92,10 @@ impl View {
             Self::NonFinite => "non-finite",
             Self::Rays => "rays",
             Self::MotionError => "motion-error",
+            Self::Emission => "emission",
+            Self::Object => "object",
+            Self::PairNow => "pair-now",
+            Self::PairBefore => "pair-before",
         }
     }
 

@@ -1,11 +1,10 @@
 //! The command line of `render`.
 
+use crate::arguments::{Format, Usage, Value};
 use asvgf::scene::builtin;
 use asvgf::{Gradient, Settings, View};
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
-use std::fmt;
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// What `--help` prints.
@@ -59,10 +58,12 @@ Output
   --outputs LIST        which images, separated by commas, or all           [denoised]
                         denoised, noisy, albedo, normal, depth, triangle-id, motion,
                         gradient, lambda, alpha, history-length, variance, non-finite,
-                        rays
+                        rays, motion-error, emission, object, pair-now, pair-before
   --format LIST         png (tone-mapped), exr (numbers: linear radiance and the like
                         as 32-bit floats in R, G, B), or both as png,exr         [png]
   --exposure X          factor on radiance in PNG files                            [1]
+  --sequence            also write what the denoiser was fed with, as a sequence that the
+                        example `denoise` reads: frame_0000.exr … and manifest.json
   --reference SPP       also trace each frame with so many paths per pixel, unfiltered
   --compare[=SPP]       end with comparison.png: noisy, constant alpha, adaptive alpha
                         and reference (of so many paths, 64 if not said, or as many as
@@ -80,24 +81,6 @@ Exit status: 0 done, 1 failed, 2 wrong usage.
 /// Paths per pixel of a comparison's reference, where no other number is said.
 const REFERENCE: u32 = 64;
 
-/// What is wrong with the command line.
-#[derive(Debug)]
-pub struct Usage(pub String);
-
-impl fmt::Display for Usage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for Usage {}
-
-impl From<lexopt::Error> for Usage {
-    fn from(error: lexopt::Error) -> Self {
-        Self(error.to_string())
-    }
-}
-
 /// What the command line asks for.
 #[derive(Debug)]
 pub enum Request {
@@ -110,13 +93,6 @@ pub enum Request {
 pub enum Source {
     BuiltIn(String),
     File(PathBuf),
-}
-
-/// The file formats.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Format {
-    Png,
-    Exr,
 }
 
 /// What overrides the scene's own camera.
@@ -142,11 +118,14 @@ pub struct Options {
     pub settings: Settings,
     pub out: PathBuf,
     pub outputs: Vec<View>,
+    /// All were asked for: those that a scene does not have are passed over.
+    pub every_output: bool,
     pub formats: Vec<Format>,
     pub exposure: Option<f32>,
     pub reference: Option<u32>,
     /// Paths per pixel of the comparison's reference.
     pub compare: Option<u32>,
+    pub sequence: bool,
     pub explain: bool,
     pub list: bool,
 }
@@ -165,10 +144,12 @@ impl Default for Options {
             settings: Settings::adaptive(),
             out: "out".into(),
             outputs: vec![View::Denoised],
+            every_output: false,
             formats: vec![Format::Png],
             exposure: None,
             reference: None,
             compare: None,
+            sequence: false,
             explain: false,
             list: false,
         }
@@ -207,6 +188,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
                     None => Some(REFERENCE),
                 };
             }
+            "sequence" => options.sequence = true,
             "explain" => options.explain = true,
             "list" => options.list = true,
             "environment" => options.environment = Some(parser.value()?.into()),
@@ -282,6 +264,7 @@ impl Filter {
         }
         options.settings = settings;
         if self.every_output {
+            options.every_output = true;
             options.outputs = View::ALL.into_iter().filter(|&view| exists(view, &options.settings)).collect();
         }
         Ok(())
@@ -293,12 +276,7 @@ fn exists(view: View, settings: &Settings) -> bool {
     view != View::Gradient || settings.filter.gradient != Gradient::Off
 }
 
-/// An option with its value.
-struct Value {
-    option: String,
-    text: String,
-}
-
+/// What is only said of a rendering.
 impl Value {
     fn set(&self, options: &mut Options, filter: &mut Filter) -> Result<(), Usage> {
         let tracer = &mut options.settings.tracer;
@@ -335,20 +313,6 @@ impl Value {
         Ok(())
     }
 
-    fn wrong(&self, reason: impl fmt::Display) -> Usage {
-        Usage(format!("--{} {}: {reason}", self.option, self.text))
-    }
-
-    fn whole(&self, range: RangeInclusive<u32>) -> Result<u32, Usage> {
-        let value = self.text.parse().ok().filter(|value| range.contains(value));
-        value.ok_or_else(|| self.wrong(format!("must be a whole number from {} to {}", range.start(), range.end())))
-    }
-
-    fn number(&self, range: RangeInclusive<f32>) -> Result<f32, Usage> {
-        let value = self.text.parse().ok().filter(|value| range.contains(value));
-        value.ok_or_else(|| self.wrong(format!("must be a number from {} to {}", range.start(), range.end())))
-    }
-
     fn vector(&self) -> Result<[f32; 3], Usage> {
         let numbers: Option<Vec<f32>> =
             self.text.split(',').map(|t| t.trim().parse().ok().filter(|x: &f32| x.is_finite())).collect();
@@ -370,37 +334,6 @@ impl Value {
 
     fn gradient(&self) -> Result<Gradient, Usage> {
         self.one_of(&[("reshade", Gradient::Reshade), ("blinn-phong", Gradient::BlinnPhong), ("off", Gradient::Off)])
-    }
-
-    /// The constant, or `None` where α is to be adaptive.
-    fn alpha(&self) -> Result<Option<f32>, Usage> {
-        match (self.text.as_str(), self.text.strip_prefix("constant:")) {
-            ("adaptive", _) => Ok(None),
-            ("constant", _) => Ok(Some(0.2)),
-            (_, Some(alpha)) => {
-                let alpha = alpha.parse().ok().filter(|alpha| (0.0..=1.0).contains(alpha));
-                alpha.map(Some).ok_or_else(|| self.wrong("the constant must be a number from 0 to 1"))
-            }
-            _ => Err(self.wrong("must be adaptive, or constant:A as in constant:0.2")),
-        }
-    }
-
-    fn one_of<T: Copy>(&self, known: &[(&str, T)]) -> Result<T, Usage> {
-        let found = known.iter().find(|(name, _)| *name == self.text).map(|(_, value)| *value);
-        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
-        found.ok_or_else(|| self.wrong(format!("must be one of {}", names.join(", "))))
-    }
-
-    /// The items between commas, each once.
-    fn list<T: PartialEq>(&self, item: impl Fn(&Self) -> Result<T, Usage>) -> Result<Vec<T>, Usage> {
-        let mut items = Vec::new();
-        for text in self.text.split(',') {
-            let value = item(&Self { option: self.option.clone(), text: text.trim().into() })?;
-            if !items.contains(&value) {
-                items.push(value);
-            }
-        }
-        Ok(items)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The scene that is rendered: loaded, lit, animated and seen by a camera.
 
-use crate::options::{Options, Source, Usage, Viewpoint};
+use crate::arguments::Usage;
+use crate::options::{Options, Source, Viewpoint};
 use asvgf::Camera;
 use asvgf::scene::{self, Environment, Pose, Scene, Warning, builtin};
 use glam::Vec3;

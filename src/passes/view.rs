@@ -1,6 +1,6 @@
 //! An intermediate image shown, see shaders/view.wgsl.
 
-use super::{Pass, bindings};
+use super::{Pass, bindings, gradient_pairs};
 use crate::plan::{Feature, Features, Grid, Image, Plan, Slot, Step};
 use crate::{Error, Mode, View};
 use wgpu::TextureFormat;
@@ -31,16 +31,36 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
     if view == View::Rays && !plan.steps.iter().any(|s| s.pass.traces()) {
         return missing("the host traced the rays");
     }
-    let known = [Feature::Albedo, Feature::DirectEmission, Feature::Background, Feature::BlendByLambda];
+    if view == View::Emission && !plan.features.has(Feature::DirectEmission) {
+        return missing("nothing emits, or the host gave no emission");
+    }
+    if view == View::Object && !plan.features.has(Feature::Objects) {
+        return missing("objects are not told apart");
+    }
+    let paired = matches!(view, View::PairNow | View::PairBefore);
+    let traced = plan.features.has(Feature::Reshade) || plan.features.has(Feature::Pairs);
+    if paired && !traced {
+        return missing("the gradient does not come from paths");
+    }
+    let [now, before] = gradient_pairs::sources(plan.features);
+    let radiance = match view {
+        View::PairNow => now,
+        View::PairBefore => before,
+        _ => Slot::Now(Image::Radiance),
+    };
+    let known = [Feature::Albedo, Feature::DirectEmission, Feature::Background, Feature::BlendByLambda, Feature::Pairs];
     let mut features = plan.features.and(Features::of(&known));
-    if !matches!(view, View::Denoised | View::Noisy) {
+    if !matches!(view, View::Denoised | View::Noisy | View::Emission) {
         features = features.without(Feature::DirectEmission);
     }
     if view != View::Denoised {
         features = features.without(Feature::Background);
     }
-    if !matches!(view, View::Denoised | View::Noisy | View::Albedo) {
+    if !matches!(view, View::Denoised | View::Noisy | View::Albedo) && !paired {
         features = features.without(Feature::Albedo);
+    }
+    if !paired {
+        features = features.without(Feature::Pairs);
     }
     if view != View::Alpha {
         features = features.without(Feature::BlendByLambda);
@@ -54,7 +74,9 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         features,
         [
             ("color", color, &[]),
-            ("radiance", Slot::Now(Image::Radiance), &[]),
+            ("radiance", radiance, &[]),
+            ("samples", Slot::Now(Image::Samples), &[]),
+            ("object", Slot::Now(Image::Object), &[]),
             ("albedo", Slot::Now(Image::Albedo), if view == View::Rays { &[] } else { &[Feature::Albedo] }),
             ("emission", Slot::Now(Image::Emission), &[Feature::DirectEmission]),
             ("guide", Slot::Now(Image::Guide), &[]),
@@ -77,6 +99,9 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         View::Gradient => &["gradient"],
         View::Lambda | View::Alpha | View::HistoryLength | View::Variance => &["history"],
         View::NonFinite => &["color"],
+        View::Emission => &["emission"],
+        View::Object => &["object"],
+        View::PairNow | View::PairBefore => &["samples", "radiance", "albedo"],
     };
     let bindings = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name)).collect();
     Ok(Step { pass: Pass::View, features, grid: Grid::Pixels, iteration: view as u32, bindings })

@@ -52,6 +52,27 @@ fn numbers_are_within_their_documented_ranges() {
 }
 
 #[test]
+fn the_gradients_pairs_are_in_the_pixels_of_their_paths() {
+    let mut stage = Stage::built_in("cornell", "static", SIZE, Settings::adaptive());
+    stage.frames(5);
+    let [now, before] = [View::PairNow, View::PairBefore].map(|view| stage.view(view));
+    let (noisy, emission) = (stage.view(View::Noisy), stage.view(View::Emission));
+    let mut found = vec![0; (SIZE[0].div_ceil(3) * SIZE[1].div_ceil(3)) as usize];
+    for (i, pair) in now.iter().zip(&before).enumerate().filter(|(_, (now, _))| now[0] >= 0.0) {
+        let (x, y) = (i as u32 % SIZE[0], i as u32 / SIZE[0]);
+        found[(y / 3 * SIZE[0].div_ceil(3) + x / 3) as usize] += 1;
+        // The pixel repeats the path, and nothing changed.
+        assert_eq!(pair.0, pair.1, "pixel {i}");
+        for c in 0..3 {
+            let reflected = noisy[i][c] - emission[i][c];
+            assert!((pair.0[c] - reflected).abs() <= 1e-5 * noisy[i][c], "pixel {i}: {} is not {reflected}", pair.0[c]);
+        }
+    }
+    assert!(found.iter().all(|&n| n <= 1) && found.contains(&1), "{found:?}");
+    assert!(before.iter().zip(&now).all(|(b, n)| (b[0] < 0.0) == (n[0] < 0.0)), "a pair is whole or absent");
+}
+
+#[test]
 fn every_view_has_a_picture_with_something_in_it() {
     let mut stage = stage();
     let target = gpu().target(SIZE, TextureFormat::Rgba8Unorm);

@@ -1,0 +1,79 @@
+//! The path tracer's own frames as a sequence, as `denoise` reads it.
+
+use crate::camera::{Camera, dot};
+use crate::film::Film;
+use crate::layers::Layer;
+use asvgf::image_io::{self, Channels};
+use asvgf::{Error, View};
+use serde_json::json;
+use std::fs;
+use std::path::Path;
+
+/// Writes the last frame, with all layers that it has.
+pub fn write_frame(path: &Path, film: &mut Film<'_>) -> Result<(), Box<dyn std::error::Error>> {
+    let [width, height] = film.denoiser.size();
+    let mut image = Channels { width, height, channels: Vec::new() };
+    for layer in Layer::ALL {
+        let Some((view, value)) = source(layer) else { continue };
+        let pixels = match film.numbers(view) {
+            Ok(pixels) => pixels,
+            // Nothing emits, nothing moves by itself, or α does not adapt.
+            Err(Error::NoView { .. }) => continue,
+            Err(error) => return Err(error.into()),
+        };
+        for (i, name) in layer.channels().into_iter().enumerate() {
+            image.channels.push((name, pixels.iter().map(|&pixel| value(pixel)[i]).collect()));
+        }
+    }
+    Ok(image_io::write_exr(path, &image)?)
+}
+
+/// A layer's components in a pixel of a view.
+type Components = fn([f32; 3]) -> [f32; 3];
+
+/// The view that holds a layer, and where in its pixels.
+fn source(layer: Layer) -> Option<(View, Components)> {
+    let same: Components = |pixel| pixel;
+    Some(match layer {
+        Layer::Color => (View::Noisy, same),
+        Layer::Albedo => (View::Albedo, same),
+        Layer::Emission => (View::Emission, same),
+        Layer::Normal => (View::Normal, same),
+        Layer::Depth => (View::Depth, same),
+        Layer::Motion => (View::Motion, same),
+        Layer::PreviousDepth => (View::Motion, |[_, _, z]| [z; 3]),
+        Layer::Id => (View::Object, |[low, high, _]| [low + 65536.0 * high; 3]),
+        Layer::GradientCurrent => (View::PairNow, same),
+        Layer::GradientPrevious => (View::PairBefore, same),
+        Layer::Lambda => return None,
+    })
+}
+
+/// Writes where the frames were seen from, beside them.
+pub fn write_manifest(folder: &Path, size: [u32; 2], cameras: &[asvgf::Camera]) -> Result<(), String> {
+    let cameras: Vec<_> = cameras.iter().map(|&c| camera(c, size).to_json()).collect();
+    let [width, height] = size;
+    let manifest = json!({
+        "width": width, "height": height, "frames": cameras.len(), "gradient_in_place": true, "cameras": cameras,
+    });
+    let path = folder.join("manifest.json");
+    fs::write(&path, format!("{manifest:#}\n")).map_err(|e| format!("{}: cannot be written: {e}", path.display()))
+}
+
+/// The same camera by its directions.
+fn camera(seen: asvgf::Camera, [width, height]: [u32; 2]) -> Camera {
+    let [eye, target, up] = [seen.eye, seen.target, seen.up].map(|v| v.map(f64::from));
+    let forward = unit(std::array::from_fn(|i| target[i] - eye[i]));
+    let right = unit(cross(forward, up));
+    let slope = (f64::from(seen.fov_y) / 2.0).tan() * f64::from(width) / f64::from(height);
+    Camera { eye, forward, right, up: cross(right, forward), slope, jitter: seen.jitter.map(f64::from) }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn unit(a: [f64; 3]) -> [f64; 3] {
+    let length = dot(a, a).sqrt();
+    a.map(|x| x / length)
+}

@@ -1,0 +1,54 @@
+//! What can be asked of `denoise`.
+
+use crate::arguments::Format;
+use crate::denoise_options::{Options, Request, parse};
+use crate::layers::Layer;
+use asvgf::{FilterSettings, View};
+
+fn options(line: &str) -> Result<Options, String> {
+    match parse(line.split(' ').map(Into::into)) {
+        Ok(Request::Denoise(options)) => Ok(*options),
+        Ok(Request::Help) => Err("help".into()),
+        Err(usage) => Err(usage.to_string()),
+    }
+}
+
+#[test]
+fn what_is_not_said_is_the_default() {
+    let options = options("in --out out").unwrap();
+    assert_eq!((options.input.to_str(), options.out.to_str()), (Some("in"), Some("out")));
+    assert_eq!(options.preset, FilterSettings::default());
+    assert_eq!((options.constant, options.fov_y, options.in_place), (None, None, false));
+    assert_eq!((options.outputs, options.formats), (vec![("denoised", View::Denoised)], vec![Format::Exr]));
+}
+
+#[test]
+fn everything_that_can_be_said_is_heard() {
+    let line = "in --out out --alpha constant:0.1 --iterations 3 --preset classic --outputs denoised,lambda,history --format exr,png \
+                --map albedo=base --map depth=far";
+    let options = options(line).unwrap();
+    assert_eq!(options.constant, Some(0.1));
+    // Whatever the order.
+    assert_eq!(options.preset, FilterSettings { iterations: 3, ..FilterSettings::classic() });
+    assert_eq!(options.outputs.iter().map(|o| o.0).collect::<Vec<_>>(), ["denoised", "lambda", "history"]);
+    assert_eq!(options.formats, [Format::Exr, Format::Png]);
+    assert_eq!(options.names, [(Layer::Albedo, "base".to_owned()), (Layer::Depth, "far".to_owned())]);
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    for (line, reason) in [
+        ("--out out", "IN_DIR is missing"),
+        ("in", "--out OUT_DIR is missing"),
+        ("in in --out out", "a second IN_DIR"),
+        ("in --out out --alpha 2", "--alpha 2: must be adaptive, or constant:A"),
+        ("in --out out --map albdo=x", "--map albdo=x: must be LAYER=NAME, with LAYER one of color, albedo"),
+        ("in --out out --map albedo=", "--map albedo=: must be LAYER=NAME"),
+        ("in --out out --iterations 9", "--iterations 9: must be a whole number from 0 to 8"),
+        ("in --out out --outputs rays", "--outputs rays: must be one of denoised"),
+        ("in --out out --sharpen", "--sharpen"),
+    ] {
+        let error = options(line).map(|o| o.outputs).expect_err(line);
+        assert!(error.contains(reason), "{line}: «{error}» does not say {reason}");
+    }
+}

@@ -1,0 +1,66 @@
+//! A folder with a sequence under construction.
+
+use crate::layers::{Layer, Names};
+use crate::sequence::{Sequence, SequenceError};
+use asvgf::image_io::{Channels, write_exr};
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A folder of its own for a test, which is removed at its end.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    pub fn new() -> Self {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        let name = format!("asvgf-sequences-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(name);
+        fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    /// Three frames of a grey wall one unit away.
+    pub fn with_frames() -> Self {
+        let folder = Self::new();
+        for frame in 0..3 {
+            folder.write(frame, &wall([6, 4]));
+        }
+        folder
+    }
+
+    pub fn write(&self, frame: u32, image: &Channels) {
+        write_exr(self.0.join(format!("frame_{frame:04}.exr")), image).unwrap();
+    }
+
+    pub fn open(&self) -> Result<Sequence, SequenceError> {
+        Sequence::open(&self.0, Names::new(), None, |_| {})
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The least that a frame must have: colour ½, a normal along +Z, depth 1.
+pub fn wall([width, height]: [u32; 2]) -> Channels {
+    let mut image = Channels { width, height, channels: Vec::new() };
+    add(&mut image, Layer::Color, &[0.5; 3]);
+    add(&mut image, Layer::Normal, &[0.0, 0.0, 1.0]);
+    add(&mut image, Layer::Depth, &[1.0]);
+    image
+}
+
+/// Adds a layer that is the same in all pixels.
+pub fn add(image: &mut Channels, layer: Layer, value: &[f32]) {
+    let area = (image.width * image.height) as usize;
+    let channels = layer.channels().into_iter().zip(value).map(|(name, &x)| (name, vec![x; area]));
+    image.channels.extend(channels);
+}
+
+/// Gives a channel another name.
+pub fn rename(image: &mut Channels, from: &str, to: &str) {
+    let channel = image.channels.iter_mut().find(|(name, _)| name == from).unwrap();
+    channel.0 = to.into();
+}
