@@ -1,5 +1,5 @@
 // One à-trous iteration over the strata grid, on the gradient's numerator and denominator: x and y on the stratum's own surface,
-// z and w on any.
+// z and w on any (ACROSS_SURFACES).
 
 #import asvgf::frame::frame
 #import asvgf::strata_filter::{site, tap_weight, tent, in_grid}
@@ -46,7 +46,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
                 let tap = stratum + offset * stride;
                 let clamped = clamp(tap, vec2(0), vec2<i32>(frame.strata) - 1);
                 let other = record_of(clamped);
+#ifdef ACROSS_SURFACES
                 let there = vec2(tap_weight(center, site(other, clamped), offset, stride), tent(offset));
+#else
+                let there = vec2(tap_weight(center, site(other, clamped), offset, stride), 0.0);
+#endif
                 let w = select(vec2(0.0), there, in_grid(tap) && other.x != 0u);
                 sum += w.xxyy * gradient_of(clamped);
                 weights += w;

@@ -164,7 +164,9 @@ struct Strata {
     weight: f32,
     // Numerator and denominator of λ on the pixel's surface, and on any.
     gradient: vec2<f32>,
+#ifdef ACROSS_SURFACES
     around: vec2<f32>,
+#endif
 }
 
 fn add_stratum(
@@ -184,7 +186,9 @@ fn add_stratum(
     let w = near * falloff(exponent);
     let g = textureLoad(gradient, clamped, 0);
     (*sum).gradient += w * g.xy;
+#ifdef ACROSS_SURFACES
     (*sum).around += near * g.zw;
+#endif
     (*sum).weight += w;
 #ifdef HISTORY_RATIO
     (*sum).ratio += w * (textureLoad(ratio, clamped, 0) - 1.0);
@@ -194,29 +198,31 @@ fn add_stratum(
 // What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is on the
 // surface or none of their paths found light, which tells nothing.
 //
-// λ is not below what all paths around saw together, on whatever surface: a thin pillar has few of its own, and a change that
+// With ACROSS_SURFACES, λ is not below what all paths around saw together, on whatever surface: a thin pillar has few of its own, and a change that
 // these missed (of indirect light, say, which one path in twenty finds) would stay for a whole history.
 fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Change {
     let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;
     let base = vec2<i32>(floor(grid));
-    var sum = Strata(vec4(0.0), 0.0, vec2(0.0), vec2(0.0));
+    var sum = Strata();
     for (var i = 0; i < 4; i++) {
         add_stratum(&sum, base + vec2(i & 1, i >> 1u), grid, here, normal, depth);
     }
     // A loop of length 0 elsewhere, see `reproject`.
     let searched = select(0, 16, seen && (sum.weight <= 1e-4 || sum.gradient.y <= 0.0));
     if searched > 0 {
-        sum = Strata(vec4(0.0), 0.0, vec2(0.0), vec2(0.0));
+        sum = Strata();
     }
     for (var i = 0; i < searched; i++) {
         add_stratum(&sum, base + vec2(i & 3, i >> 2u) - 1, grid, here, normal, depth);
     }
     let scale = select(0.0, 1.0 / sum.weight, sum.weight > 0.0);
-    let parts = abs(vec2(sum.gradient.x, sum.around.x)) / max(vec2(sum.gradient.y, sum.around.y), vec2(1e-37));
-    let lambda = max(parts.x, parts.y) - frame.dead_zone;
+    var lambda = abs(sum.gradient.x) / max(sum.gradient.y, 1e-37);
+#ifdef ACROSS_SURFACES
+    lambda = max(lambda, abs(sum.around.x) / max(sum.around.y, 1e-37));
+#endif
     // λ may not exceed 1 by an ulp, as (1 − λ)^k would then be NaN.
-    return Change(1.0 + sum.ratio * scale, clamp(lambda, 0.0, 1.0));
+    return Change(1.0 + sum.ratio * scale, clamp(lambda - frame.dead_zone, 0.0, 1.0));
 }
 #endif
 

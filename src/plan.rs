@@ -158,6 +158,8 @@ pub enum Feature {
     InPlace,
     /// Differences of the gradient keep their sign.
     SignedGradient,
+    /// λ is at least what the paths around saw on any surface.
+    AcrossSurfaces,
     /// λ is the host's.
     ExternalLambda,
     /// The host gives 1 − λ.
@@ -167,7 +169,7 @@ pub enum Feature {
 }
 
 impl Feature {
-    const ALL: [Self; 46] = {
+    const ALL: [Self; 47] = {
         use Feature::*;
         [
             Instanced,
@@ -213,6 +215,7 @@ impl Feature {
             StratumPairs,
             InPlace,
             SignedGradient,
+            AcrossSurfaces,
             ExternalLambda,
             Confidence,
             Diagnostics,
@@ -621,6 +624,7 @@ fn filter_features(filter: &FilterSettings) -> Features {
         (BlinnPhong, source == settings::Gradient::BlinnPhong),
         (Pairs, pairs),
         (SignedGradient, strata && filter.gradient_signed),
+        (AcrossSurfaces, strata && filter.gradient_across_surfaces),
         (ExternalLambda, source == settings::Gradient::Lambda),
         // An analytic pair is blind to what blocks a light: its ratio would rescale shadows too.
         (HistoryRatio, (reshade || pairs) && filter.history_ratio),

@@ -95,7 +95,8 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
             ];
             let mut written = images.bench.run(&gradient_pairs_filter::step(Features::default(), iteration), &pairs);
             let inputs = [("samples", images.records.clone()), ("gradient", gradient.clone())];
-            written.append(&mut images.bench.run(&gradient_filter::step(Features::default(), iteration), &inputs));
+            let across = Features::of(&[Feature::AcrossSurfaces]);
+            written.append(&mut images.bench.run(&gradient_filter::step(across, iteration), &inputs));
             let outputs = [
                 ("now_out", &now, 4),
                 ("before_out", &before, 4),

@@ -276,7 +276,8 @@ impl Given {
                 if denominator > 0.0 { numerator.abs() / denominator } else { 0.0 }
             };
             let dead_zone = f64::from(self.bench.settings.filter.gradient_dead_zone);
-            let lambda = (part(gradient).max(part(around)) - dead_zone).clamp(0.0, 1.0);
+            let across = if self.has(Feature::AcrossSurfaces) { part(around) } else { 0.0 };
+            let lambda = (part(gradient).max(across) - dead_zone).clamp(0.0, 1.0);
             found = (if weights > 0.0 { ratio.map(|r| r / weights) } else { [1.0; 4] }, lambda);
             if weights > 1e-4 && gradient[1] > 0.0 {
                 break;
@@ -432,6 +433,7 @@ fn every_reachable_kind_of_blending() {
     check(&[Feedback, VarianceOfMean], &power(3.5));
     check(&[Gradient, BlinnPhong, VarianceOfMean], &power(3.5));
     check(&[Gradient, InPlace, VarianceOfMean, Objects], &power(1.0));
+    check(&[Gradient, AcrossSurfaces, InPlace, HistoryRatio, VarianceOfMean], &power(3.5));
     check(&[Gradient, InPlace, HistoryRatio, VarianceOfMean], &power(3.5));
     check(&[Gradient, InPlace, BlendByLambda, Feedback], &power(2.0));
     check(&[Gradient, InPlace, HistoryRatio, BlendByLambda, Feedback, VarianceOfMean, Objects], &power(0.0));
@@ -441,4 +443,5 @@ fn every_reachable_kind_of_blending() {
     let mut signed = power(3.5);
     (signed.filter.gradient_signed, signed.filter.gradient_dead_zone) = (true, 0.1);
     check(&[Gradient, VarianceOfMean], &signed);
+    check(&[Gradient, AcrossSurfaces, VarianceOfMean], &signed);
 }
