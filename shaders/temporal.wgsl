@@ -219,7 +219,9 @@ fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Cha
     let scale = select(0.0, 1.0 / sum.weight, sum.weight > 0.0);
     var lambda = abs(sum.gradient.x) / max(sum.gradient.y, 1e-37);
 #ifdef ACROSS_SURFACES
-    lambda = max(lambda, abs(sum.around.x) / max(sum.around.y, 1e-37));
+    let around = abs(sum.around.x) / max(sum.around.y, 1e-37);
+    // a + a³: the mean over paths that saw the change and paths that could not is too low, the more so the greater it is.
+    lambda = max(lambda, around + around * around * around);
 #endif
     // λ may not exceed 1 by an ulp, as (1 − λ)^k would then be NaN.
     return Change(1.0 + sum.ratio * scale, clamp(lambda - frame.dead_zone, 0.0, 1.0));

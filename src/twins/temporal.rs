@@ -277,6 +277,7 @@ impl Given {
             };
             let dead_zone = f64::from(self.bench.settings.filter.gradient_dead_zone);
             let across = if self.has(Feature::AcrossSurfaces) { part(around) } else { 0.0 };
+            let across = across + across.powi(3);
             let lambda = (part(gradient).max(across) - dead_zone).clamp(0.0, 1.0);
             found = (if weights > 0.0 { ratio.map(|r| r / weights) } else { [1.0; 4] }, lambda);
             if weights > 1e-4 && gradient[1] > 0.0 {
