@@ -67,7 +67,7 @@ pub enum Traversal {
         /// Slots of the traversal's stack.
         stack: u32,
     },
-    /// By testing each, see [`Feature::FewTriangles`].
+    /// By testing each, see [`Feature::FewTriangles`](super::Feature::FewTriangles).
     Every {
         /// How many there are, a multiple of 8.
         triangles: u32,
