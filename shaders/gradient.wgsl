@@ -27,8 +27,8 @@
 // ρ for r, g, b and luminance.
 @group(0) @binding(7) var ratio_out: texture_storage_2d<rgba32float, write>;
 #endif
-// Numerator, denominator.
-@group(0) @binding(8) var gradient_out: texture_storage_2d<rg32float, write>;
+// Numerator, denominator; again, for what the filter gathers from any surface.
+@group(0) @binding(8) var gradient_out: texture_storage_2d<rgba32float, write>;
 
 // Luminances, demodulated, below which there is nothing to compare: 2⁻¹⁰⁰ keeps every later product a normal number.
 const DARK: f32 = 7.9e-31;
@@ -120,7 +120,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         gradient = mix(gradient, vec2(pow(max(rescaled.larger, DARK), frame.gradient_gamma)), rescaled.beyond);
 #endif
     }
-    textureStore(gradient_out, stratum, vec4(gradient, 0.0, 0.0));
+    textureStore(gradient_out, stratum, vec4(gradient, gradient));
 #ifdef HISTORY_RATIO
     textureStore(ratio_out, stratum, ratio);
 #endif

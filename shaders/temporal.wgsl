@@ -164,11 +164,10 @@ struct Strata {
     weight: f32,
     // Numerator and denominator of λ on the pixel's surface, and on any.
     gradient: vec2<f32>,
+#ifdef ACROSS_SURFACES
     around: vec2<f32>,
+#endif
 }
-
-// Weight of what was seen on other surfaces. None leaves ghosts on thin ones, all of it forgets along every edge of a change.
-const BORROWED: f32 = 0.25;
 
 fn add_stratum(
     sum: ptr<function, Strata>,
@@ -185,9 +184,11 @@ fn add_stratum(
     let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
     let near = select(0.0, tent.x * tent.y, in_grid(stratum) && record.x != 0u);
     let w = near * falloff(exponent);
-    let g = textureLoad(gradient, clamped, 0).xy;
-    (*sum).gradient += w * g;
-    (*sum).around += near * g;
+    let g = textureLoad(gradient, clamped, 0);
+    (*sum).gradient += w * g.xy;
+#ifdef ACROSS_SURFACES
+    (*sum).around += near * g.zw;
+#endif
     (*sum).weight += w;
 #ifdef HISTORY_RATIO
     (*sum).ratio += w * (textureLoad(ratio, clamped, 0) - 1.0);
@@ -195,29 +196,35 @@ fn add_stratum(
 }
 
 // What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is on the
-// surface or none of their paths found light, which tells nothing. To this comes a part of what the same strata saw on any
-// surface: a thin pillar has few samples, and a change that all of them missed would stay for a whole history.
+// surface or none of their paths found light, which tells nothing.
+//
+// With ACROSS_SURFACES, λ is not below what all paths around saw together, on whatever surface: a thin pillar has few of its own, and a change that
+// these missed (of indirect light, say, which one path in twenty finds) would stay for a whole history.
 fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Change {
     let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;
     let base = vec2<i32>(floor(grid));
-    var sum = Strata(vec4(0.0), 0.0, vec2(0.0), vec2(0.0));
+    var sum = Strata();
     for (var i = 0; i < 4; i++) {
         add_stratum(&sum, base + vec2(i & 1, i >> 1u), grid, here, normal, depth);
     }
     // A loop of length 0 elsewhere, see `reproject`.
     let searched = select(0, 16, seen && (sum.weight <= 1e-4 || sum.gradient.y <= 0.0));
     if searched > 0 {
-        sum = Strata(vec4(0.0), 0.0, vec2(0.0), vec2(0.0));
+        sum = Strata();
     }
     for (var i = 0; i < searched; i++) {
         add_stratum(&sum, base + vec2(i & 3, i >> 2u) - 1, grid, here, normal, depth);
     }
-    let g = sum.gradient + BORROWED * sum.around;
     let scale = select(0.0, 1.0 / sum.weight, sum.weight > 0.0);
+    var lambda = abs(sum.gradient.x) / max(sum.gradient.y, 1e-37);
+#ifdef ACROSS_SURFACES
+    let around = abs(sum.around.x) / max(sum.around.y, 1e-37);
+    // a + a³: the mean over paths that saw the change and paths that could not is too low, the more so the greater it is.
+    lambda = max(lambda, around + around * around * around);
+#endif
     // λ may not exceed 1 by an ulp, as (1 − λ)^k would then be NaN.
-    let lambda = abs(g.x) / max(g.y, 1e-37) - frame.dead_zone;
-    return Change(1.0 + sum.ratio * scale, clamp(lambda, 0.0, 1.0));
+    return Change(1.0 + sum.ratio * scale, clamp(lambda - frame.dead_zone, 0.0, 1.0));
 }
 #endif
 

@@ -114,6 +114,9 @@ pub struct FilterSettings {
     /// Iterations that spread the gradient over the strata, 0…7; each doubles the reach (3, 9, 21 pixels …). More: steadier,
     /// and more history is dropped around a change.
     pub gradient_iterations: u32,
+    /// λ is at least what the paths around saw together on any surface. Off: thin things and corners keep ghosts of changes that
+    /// their own few paths missed; on: near a change, a little more history is dropped. Changing it compiles.
+    pub gradient_across_surfaces: bool,
     /// Let differences of opposite sign cancel in λ = max(0, |A\[Δ^(γ−1)·δ\]| / A\[Δ^γ\] − dead zone): for hosts whose pairs do
     /// not repeat their random numbers, so that each difference is mostly noise; take 5 `gradient_iterations` and a
     /// `gradient_dead_zone` of 0.1 with it. A shadow that moves cancels too: repeat the numbers where you can. Changing it compiles.
@@ -159,6 +162,7 @@ impl Default for FilterSettings {
             ratio_iterations: 3,
             gradient_gamma: 0.5,
             gradient_iterations: 2,
+            gradient_across_surfaces: true,
             gradient_signed: false,
             gradient_dead_zone: 0.0,
             blend: Blend::HistoryLength,
@@ -188,6 +192,7 @@ impl FilterSettings {
             ratio_iterations: 3,
             gradient_gamma: 0.0,
             gradient_iterations: 3,
+            gradient_across_surfaces: false,
             gradient_signed: false,
             gradient_dead_zone: 0.0,
             blend: Blend::Lambda,
@@ -264,7 +269,8 @@ pub enum Kernel {
     Full,
 }
 
-/// How paths are traced.
+/// How paths are traced. Paths of other settings are not those of the last frame: with re-shading, a change drops what history it
+/// contradicts.
 #[cfg(feature = "path-tracer")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TracerSettings {

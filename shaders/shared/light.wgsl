@@ -5,7 +5,7 @@
 #import asvgf::color::luminance
 #import asvgf::material::{PI, surface_at}
 
-// Light kinds, as in src/scene/upload.rs.
+// Light kinds, as in src/scene/lights.rs.
 const EMITTER: u32 = 0u;
 const POINT: u32 = 1u;
 const DIRECTIONAL: u32 = 2u;

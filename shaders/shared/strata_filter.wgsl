@@ -27,7 +27,12 @@ fn geometric_exponent(normal: vec3<f32>, offset: vec3<f32>, other_normal: vec3<f
 // Tolerated distance from the plane, in parts of the depth.
 const PLANE: f32 = 0.02;
 
-// Weight of one tap of the à-trous filter on the strata grid: a tent on 3×3 taps times the geometric weight.
+// A tent on 3×3 taps.
+fn tent(offset: vec2<i32>) -> f32 {
+    return f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
+}
+
+// Weight of one tap of the à-trous filter on the strata grid: the tent times the geometric weight.
 fn tap_weight(center: Site, other: Site, offset: vec2<i32>, stride: i32) -> f32 {
     let exponent = geometric_exponent(
         center.normal,
@@ -35,8 +40,7 @@ fn tap_weight(center: Site, other: Site, offset: vec2<i32>, stride: i32) -> f32 
         other.normal,
         PLANE * center.depth * f32(stride),
     );
-    let tent = f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
-    return tent * falloff(exponent);
+    return tent(offset) * falloff(exponent);
 }
 
 fn in_grid(stratum: vec2<i32>) -> bool {

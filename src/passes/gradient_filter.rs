@@ -1,13 +1,13 @@
 //! One iteration of the gradient's filter, see shaders/gradient_filter.wgsl.
 
 use super::Pass;
-use crate::plan::{Features, Grid, Image, Slot, Step};
+use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-pub(crate) fn step(_: Features, iteration: u32) -> Step {
+pub(crate) fn step(features: Features, iteration: u32) -> Step {
     let from = (iteration % 2) as u8;
     Step {
         pass: Pass::GradientFilter,
-        features: Features::default(),
+        features: features.and(Features::of(&[Feature::AcrossSurfaces])),
         grid: Grid::Strata,
         iteration,
         bindings: vec![

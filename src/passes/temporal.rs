@@ -6,6 +6,7 @@ use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 const FEATURES: &[Feature] = &[
     Feature::Objects,
     Feature::Gradient,
+    Feature::AcrossSurfaces,
     Feature::InPlace,
     Feature::HistoryRatio,
     Feature::ExternalLambda,

@@ -4,7 +4,7 @@
 //! probability while it moves, dims or is switched off: both follow from the scene at rest with every light at its
 //! nominal strength, and momentary strengths only enter the radiance.
 
-use super::{Light, LightKind, Matrix};
+use super::{Light, LightKind, Material, Matrix, Pose};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
 
@@ -116,5 +116,45 @@ pub(crate) fn assign_probabilities(lights: &mut [GpuLight], powers: &[f64]) {
         light.alias = entry.alias;
         light.threshold = entry.threshold;
         light.pmf = entry.pmf;
+    }
+}
+
+/// The triangles of one instance that share an emitting material, as the analytic gradient sees them.
+#[derive(Debug, Default)]
+pub(crate) struct Emitter {
+    pub node: Option<usize>,
+    pub material: usize,
+    /// Σ area · centre and Σ area · normal, in the space of the node.
+    pub centre: Vec3,
+    pub normal: Vec3,
+    pub area: f32,
+}
+
+impl Emitter {
+    pub fn add(&mut self, corners: [Vec3; 3], normal: Vec3) {
+        let area = normal.length();
+        self.centre += area * (corners[0] + corners[1] + corners[2]) / 3.0;
+        self.normal += normal;
+        self.area += area;
+    }
+
+    /// A flat emitter is a cosine lobe of radiance times area; one that is closed shows a quarter of its area from
+    /// everywhere (Cauchy), like a point light.
+    pub fn analytic(&self, materials: &[Material], pose: &Pose) -> AnalyticLight {
+        let placement = self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
+        let scale = placement.determinant().abs().powf(2.0 / 3.0);
+        let factor = pose.emission[self.material] * scale;
+        let flat = self.normal.length() > 0.5 * self.area;
+        let shown = if flat { self.normal.length() } else { self.area / 4.0 };
+        AnalyticLight {
+            position: placement.transform_point3(self.centre / self.area).to_array(),
+            kind: if flat { EMITTER } else { POINT },
+            axis: placement.transform_vector3(self.normal).normalize_or(Vec3::NEG_Y).to_array(),
+            range: 1e9,
+            intensity: materials[self.material].emissive.map(|e| e * factor * shown),
+            spot_scale: 0.0,
+            spot_offset: 1.0,
+            ..Default::default()
+        }
     }
 }

@@ -1,11 +1,15 @@
 //! What the path tracer draws: a plain description, importers, built-in scenes, and its upload to the GPU.
 
 mod alias;
+mod buffers;
 mod bvh;
 mod description;
+mod facets;
 mod folded;
 mod geometry;
+mod instances;
 mod lights;
+mod materials;
 mod measure;
 mod pose;
 mod texels;
@@ -15,7 +19,6 @@ mod validate;
 pub mod builtin;
 #[cfg(feature = "image")]
 mod environment;
-mod facets;
 #[cfg(feature = "gltf")]
 mod gltf;
 #[cfg(any(feature = "gltf", feature = "obj"))]

@@ -1,19 +1,20 @@
 //! The scene on the GPU, laid out as shaders/shared/scene.wgsl reads it.
 
-use super::bvh::{self, Quantization};
+use super::buffers::{buffer, check_size, check_texels, storage};
+use super::bvh::Quantization;
 use super::facets::{self, Facet};
 use super::folded::{self, Texel};
 use super::geometry::{self, Geometry};
-use super::lights::{self, AnalyticLight, GpuLight};
-use super::texels::{self, GpuTexture, Place};
-use super::{Alpha, Light, Material, Matrix, Pose, Scene, SceneError};
+use super::instances::{self, Instance, NODE_TEXELS, top_level_nodes, top_level_texels};
+use super::lights::{self, AnalyticLight, Emitter, GpuLight};
+use super::texels::{self, Place};
+use super::{Light, Material, Matrix, Pose, Scene, SceneError, materials};
 use crate::plan::{Traits, Traversal};
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Vec3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU64, Ordering};
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, Device, DeviceType, Queue, Texture, TextureView};
 
 /// Lights that the Blinn–Phong gradient evaluates; the strongest are kept.
@@ -22,10 +23,8 @@ const ANALYTIC_LIGHTS: usize = 64;
 /// Slots of the traversal's stack: no tree that obvhs builds over real geometry comes near.
 const LARGEST_STACK: u32 = 64;
 
-/// Texels of a row of the lookup table, of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
+/// Texels of a row of the lookup table, as in shaders/shared/scene.wgsl.
 const ROW_TEXELS: usize = 3;
-const NODE_TEXELS: usize = 2;
-const RECORD_TEXELS: usize = 12;
 
 /// A [`Scene`] on the GPU: geometry and its trees once; placements, materials and lights of this frame and the last.
 ///
@@ -69,32 +68,6 @@ struct Buffers {
     facet_owners: Buffer,
 }
 
-/// A tree placed in the world.
-#[derive(Debug)]
-struct Instance {
-    /// The node that places it; `None` for the static geometry, which is in world space already.
-    node: Option<usize>,
-    root: u32,
-    first_row: u32,
-    row_count: u32,
-    /// First number in the visibility buffer.
-    first_id: u32,
-    first_light: u32,
-    bounds: [[f32; 3]; 2],
-    grid: Quantization,
-}
-
-/// The triangles of one instance that share an emitting material, as the analytic gradient sees them.
-#[derive(Debug, Default)]
-struct Emitter {
-    node: Option<usize>,
-    material: usize,
-    /// Σ area · centre and Σ area · normal, in the space of the node.
-    centre: Vec3,
-    normal: Vec3,
-    area: f32,
-}
-
 /// A light without area and the node that places it.
 #[derive(Debug)]
 struct Punctual {
@@ -130,22 +103,6 @@ impl Header {
         self.grid_base = grid.base;
         self.grid_step = grid.step;
     }
-}
-
-/// `Material` of scene.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-struct GpuMaterial {
-    base_color: [f32; 4],
-    emissive: [f32; 3],
-    flags: u32,
-    metallic: f32,
-    roughness: f32,
-    specular: f32,
-    cutoff: f32,
-    base_color_texture: GpuTexture,
-    metallic_roughness_texture: GpuTexture,
-    emissive_texture: GpuTexture,
 }
 
 impl GpuScene {
@@ -316,7 +273,7 @@ impl GpuScene {
         texels[top..top + placements.len()].copy_from_slice(&placements);
         this.buffers.geometry = folded("geometry", &texels);
         this.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&this.header), BufferUsages::UNIFORM);
-        this.buffers.materials = folded("materials", folded::texels(&this.materials()));
+        this.buffers.materials = folded("materials", folded::texels(&this.gpu_materials()));
         this.place_lights(device);
         this.buffers.lights = folded("lights", folded::texels(&this.light_table));
         this.upload_facets(device);
@@ -367,7 +324,7 @@ impl GpuScene {
             self.place_lights(device);
             folded::replace(device, encoder, &self.buffers.lights.0, 0, folded::texels(&self.light_table));
             if before.emission != pose.emission {
-                folded::replace(device, encoder, &self.buffers.materials.0, 0, folded::texels(&self.materials()));
+                folded::replace(device, encoder, &self.buffers.materials.0, 0, folded::texels(&self.gpu_materials()));
             }
         }
         Ok(())
@@ -431,30 +388,16 @@ impl GpuScene {
         Some(buffer.as_entire_binding())
     }
 
-    /// The top level and the instances' records, with the placements of this pose and the one before, and the top level's
-    /// depth. Empty where there is one level.
+    /// The top level and the instances' records with the placements of this pose and the one before, and the top level's depth.
+    /// Empty where there is one level.
     fn placements(&mut self, before: &Pose) -> (Vec<Texel>, u32) {
         if !self.traits.instanced {
             self.header.set_grid(self.instances[0].grid);
             return (Vec::new(), 0);
         }
-        let boxes: Vec<_> = self.instances.iter().map(|i| transform_box(i.placement(&self.pose), i.bounds)).collect();
-        let top = bvh::over_instances(&boxes, self.header.root);
-        self.header.set_grid(top.grid);
-        let mut texels = folded::texels(&top.nodes).to_vec();
-        // As many nodes as any tree over these instances can have, so that the records stay where they are.
-        texels.resize(top_level_nodes(self.instances.len()) * NODE_TEXELS, Texel::default());
-        for instance in &self.instances {
-            let now = instance.placement(&self.pose);
-            let mirrored = u32::from(now.determinant() < 0.0);
-            texels.extend(rows(now));
-            texels.extend(rows(inverse(now)));
-            texels.extend(rows(instance.placement(before)));
-            texels.push(padded(instance.grid.base));
-            texels.push(padded(instance.grid.step));
-            texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
-        }
-        (texels, top.depth)
+        let placed = instances::place(&self.instances, &self.pose, before, self.header.root);
+        self.header.set_grid(placed.grid);
+        (placed.texels, placed.depth)
     }
 
     /// The triangles of all instances in world space, where each of them is tested.
@@ -476,28 +419,8 @@ impl GpuScene {
         self.buffers.facet_owners = uniform("owners of facets", bytemuck::cast_slice(&owners));
     }
 
-    /// The materials as bright as they are in this pose.
-    fn materials(&self) -> Vec<GpuMaterial> {
-        let texture = |t| texels::texture_use(t, &self.images);
-        self.materials
-            .iter()
-            .zip(&self.pose.emission)
-            .map(|(m, factor)| GpuMaterial {
-                base_color: m.base_color,
-                emissive: m.emissive.map(|e| e * factor),
-                flags: u32::from(m.double_sided) | u32::from(m.unlit) << 1,
-                metallic: m.metallic,
-                roughness: m.roughness,
-                specular: m.specular,
-                cutoff: match m.alpha {
-                    Alpha::Opaque => 0.0,
-                    Alpha::Mask(cutoff) => cutoff,
-                },
-                base_color_texture: texture(m.base_color_texture),
-                metallic_roughness_texture: texture(m.metallic_roughness_texture),
-                emissive_texture: texture(m.emissive_texture),
-            })
-            .collect()
+    fn gpu_materials(&self) -> Vec<materials::GpuMaterial> {
+        materials::materials(&self.materials, &self.pose.emission, &self.images)
     }
 
     /// Puts the lights where they are in this pose.
@@ -519,124 +442,9 @@ impl GpuScene {
     }
 }
 
-impl Instance {
-    /// Where it stands in a pose.
-    fn placement(&self, pose: &Pose) -> Mat4 {
-        self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
-    }
-}
-
-impl Emitter {
-    fn add(&mut self, corners: [Vec3; 3], normal: Vec3) {
-        let area = normal.length();
-        self.centre += area * (corners[0] + corners[1] + corners[2]) / 3.0;
-        self.normal += normal;
-        self.area += area;
-    }
-
-    /// A flat emitter is a cosine lobe of radiance times area; one that is closed shows a quarter of its area from
-    /// everywhere (Cauchy), like a point light.
-    fn analytic(&self, materials: &[Material], pose: &Pose) -> AnalyticLight {
-        let placement = self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
-        let scale = placement.determinant().abs().powf(2.0 / 3.0);
-        let factor = pose.emission[self.material] * scale;
-        let flat = self.normal.length() > 0.5 * self.area;
-        let shown = if flat { self.normal.length() } else { self.area / 4.0 };
-        AnalyticLight {
-            position: placement.transform_point3(self.centre / self.area).to_array(),
-            kind: if flat { lights::EMITTER } else { lights::POINT },
-            axis: placement.transform_vector3(self.normal).normalize_or(Vec3::NEG_Y).to_array(),
-            range: 1e9,
-            intensity: materials[self.material].emissive.map(|e| e * factor * shown),
-            spot_scale: 0.0,
-            spot_offset: 1.0,
-            ..Default::default()
-        }
-    }
-}
-
-/// Nodes of a top level over this many instances, at most: each inner node joins two.
-fn top_level_nodes(instances: usize) -> usize {
-    instances.saturating_sub(1).max(1)
-}
-
-/// Texels of the top level and the records, in whole rows.
-fn top_level_texels(instances: usize) -> usize {
-    (top_level_nodes(instances) * NODE_TEXELS + instances * RECORD_TEXELS).next_multiple_of(folded::WIDTH)
-}
-
-/// What is folded into a texture may fill as many rows as a texture has, and references number 2²⁷ triangles.
-fn check_texels(device: &Device, element: &str, texels: usize) -> Result<(), SceneError> {
-    let limit = device.limits().max_texture_dimension_2d;
-    if texels <= folded::WIDTH * limit as usize && texels / 3 < bvh::LARGEST_FIRST as usize {
-        return Ok(());
-    }
-    let reason = format!(
-        "take {texels} texels, a folded texture of the device has {}: use fewer, or raise max_texture_dimension_2d",
-        folded::WIDTH * limit as usize
-    );
-    Err(SceneError { file: "scene".into(), element: element.into(), reason })
-}
-
-fn check_size(device: &Device, element: &str, bytes: usize) -> Result<(), SceneError> {
-    let limits = device.limits();
-    let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-    if bytes as u64 <= limit {
-        return Ok(());
-    }
-    let reason = format!(
-        "take {bytes} bytes, the device's max_storage_buffer_binding_size is {limit}: raise it, or use fewer triangles or \
-         smaller images"
-    );
-    Err(SceneError { file: "scene".into(), element: element.into(), reason })
-}
-
-fn buffer(device: &Device, label: &str, contents: &[u8], usage: BufferUsages) -> Buffer {
-    device.create_buffer_init(&BufferInitDescriptor { label: Some(&format!("asvgf {label}")), contents, usage })
-}
-
-/// A storage buffer, of at least the bytes that its binding needs.
-fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -> Buffer {
-    let bytes: &[u8] = bytemuck::cast_slice(contents);
-    if bytes.len() >= least {
-        buffer(device, label, bytes, BufferUsages::STORAGE)
-    } else {
-        buffer(device, label, &vec![0; least], BufferUsages::STORAGE)
-    }
-}
-
 /// The vertex in a texel of the lookup table.
 fn corner(texel: Texel) -> [f32; 3] {
     [texel[0], texel[1], texel[2]].map(f32::from_bits)
-}
-
-fn padded(v: [f32; 3]) -> Texel {
-    [v[0].to_bits(), v[1].to_bits(), v[2].to_bits(), 0]
-}
-
-/// The three rows of an affine matrix.
-fn rows(m: Mat4) -> [Texel; 3] {
-    [m.row(0), m.row(1), m.row(2)].map(|r: Vec4| r.to_array().map(f32::to_bits))
-}
-
-/// The inverse, in double precision; a placement that flattens has none and is never hit: its inverse is taken as 0.
-fn inverse(m: Mat4) -> Mat4 {
-    let m = m.as_dmat4();
-    if m.determinant() == 0.0 { Mat4::ZERO } else { m.inverse().as_mat4() }
-}
-
-/// A box around a box after a placement.
-fn transform_box(m: Mat4, [low, high]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
-    let (mut a, mut b) = (Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY));
-    for corner in 0..8 {
-        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
-        let p = m.transform_point3(Vec3::new(pick(0), pick(1), pick(2)));
-        a = a.min(p);
-        b = b.max(p);
-    }
-    // Rounding in the transformation may not lose a hit on the box's face.
-    let margin = (a.abs().max(b.abs())) * 4e-7;
-    [(a - margin).to_array(), (b + margin).to_array()]
 }
 
 #[cfg(test)]
@@ -652,9 +460,6 @@ mod tests {
             environment_alias, environment_width, environment_height, attribute_stride, uv0 as "uv_first",
             uv1 as "uv_second", environment_density, grid_base, root, grid_step);
         assert_layout("Scene", header, size_of::<Header>());
-        let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, specular, cutoff,
-            base_color_texture, metallic_roughness_texture, emissive_texture);
-        assert_layout("Material", material, size_of::<GpuMaterial>());
         let light = fields!(GpuLight: kind, alias as "alias_index", threshold, pmf, position, triangle, axis, instance,
             intensity, range, spot_scale, spot_offset);
         assert_layout("Light", light, size_of::<GpuLight>());

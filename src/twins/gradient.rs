@@ -95,12 +95,13 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
             ];
             let mut written = images.bench.run(&gradient_pairs_filter::step(Features::default(), iteration), &pairs);
             let inputs = [("samples", images.records.clone()), ("gradient", gradient.clone())];
-            written.append(&mut images.bench.run(&gradient_filter::step(Features::default(), iteration), &inputs));
+            let across = Features::of(&[Feature::AcrossSurfaces]);
+            written.append(&mut images.bench.run(&gradient_filter::step(across, iteration), &inputs));
             let outputs = [
                 ("now_out", &now, 4),
                 ("before_out", &before, 4),
                 ("product_out", &product, 1),
-                ("gradient_out", &gradient, 2),
+                ("gradient_out", &gradient, 4),
             ];
             for (x, y) in images.bench.strata() {
                 let i = images.bench.stratum(x, y).unwrap();
@@ -108,11 +109,14 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
                     0 => Vec::new(),
                     _ => images.bench.strata_taps(&images.records, x, y, 1 << iteration),
                 };
-                let weight: f64 = taps.iter().map(|t| t.1).sum::<f64>().max(1.0);
                 for (name, input, channels) in outputs {
                     for channel in 0..channels {
-                        let value =
-                            |&(tap, w): &(usize, f64)| (w * float(input[tap][channel]), float(input[tap][channel]));
+                        // The gradient's last two channels are those of any surface.
+                        let blind = usize::from(name == "gradient_out" && channel >= 2);
+                        let weight: f64 = taps.iter().map(|t| t.1[blind]).sum::<f64>().max(1.0);
+                        let value = |&(tap, w): &(usize, [f64; 2])| {
+                            (w[blind] * float(input[tap][channel]), float(input[tap][channel]))
+                        };
                         let expected = taps.iter().map(|t| value(t).0).sum::<f64>() / weight;
                         // Exponents are known to some 1e-4; whether a weight of e⁻⁸ is cut may differ: 1e-4 of the largest.
                         let largest = taps.iter().map(|t| value(t).1).fold(0.0, f64::max);
@@ -228,6 +232,8 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 // pow is exp2 of a product in f32: up to 10⁵ is 17 bits before the point.
                 assert_close(found[0], expected[0], 3e-4 * expected[1], || format!("{}: numerator", what()));
                 assert_close(found[1], expected[1], 3e-4 * expected[1], || format!("{}: denominator", what()));
+                let texel = written["gradient_out"][i];
+                assert_eq!(texel[..2], texel[2..], "{}: what is gathered from any surface", what());
             }
         }
     }

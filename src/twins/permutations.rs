@@ -98,6 +98,7 @@ fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
             kernel: if on(5) { crate::Kernel::Full } else { crate::Kernel::Diamond },
             local_linear_fit: on(6),
             gradient_signed: on(7),
+            gradient_across_surfaces: on(6),
             iterations: if on(8) { 5 } else { 0 },
             gradient_iterations: if on(9) { 3 } else { 0 },
             ..Default::default()

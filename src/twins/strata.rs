@@ -64,7 +64,7 @@ impl Bench {
     }
 
     /// Taps of one iteration of the filter over strata: which stratum, and its weight.
-    pub fn strata_taps(&self, records: &[Texel], x: i32, y: i32, stride: i32) -> Vec<(usize, f64)> {
+    pub fn strata_taps(&self, records: &[Texel], x: i32, y: i32, stride: i32) -> Vec<(usize, [f64; 2])> {
         let here = self.site(records[self.stratum(x, y).unwrap()], x, y);
         let offsets = (-1..=1).flat_map(|dy: i32| (-1..=1).map(move |dx: i32| (dx, dy)));
         offsets
@@ -73,7 +73,7 @@ impl Bench {
                 let i = self.stratum(tx, ty).filter(|&i| records[i][0] != 0)?;
                 let exponent = exponent(&here, &self.site(records[i], tx, ty), here.depth * f64::from(stride));
                 let tent = f64::from((2 - dx.abs()) * (2 - dy.abs()));
-                Some((i, tent * falloff(exponent)))
+                Some((i, [tent * falloff(exponent), tent]))
             })
             .collect()
     }

@@ -263,7 +263,7 @@ impl Given {
                 let w = tent[0] * tent[1] * falloff(exponent);
                 for c in [0, 1] {
                     gradient[c] += w * float(self.gradient[s][c]);
-                    around[c] += tent[0] * tent[1] * float(self.gradient[s][c]);
+                    around[c] += tent[0] * tent[1] * float(self.gradient[s][c + 2]);
                 }
                 for (sum, &r) in ratio.iter_mut().zip(&self.ratio[s]) {
                     *sum += w * float(r);
@@ -271,11 +271,14 @@ impl Given {
                 weights += w;
             }
             *unsure |= (weights / 1e-4 - 1.0).abs() < 0.1;
-            // A quarter of what is around counts too, so that thin surfaces do not miss a change.
-            let [numerator, denominator] = [0, 1].map(|c| gradient[c] + 0.25 * around[c]);
+            // What is around counts too, so that thin surfaces do not miss a change.
+            let part = |[numerator, denominator]: [f64; 2]| {
+                if denominator > 0.0 { numerator.abs() / denominator } else { 0.0 }
+            };
             let dead_zone = f64::from(self.bench.settings.filter.gradient_dead_zone);
-            let lambda =
-                if denominator > 0.0 { (numerator.abs() / denominator - dead_zone).clamp(0.0, 1.0) } else { 0.0 };
+            let across = if self.has(Feature::AcrossSurfaces) { part(around) } else { 0.0 };
+            let across = across + across.powi(3);
+            let lambda = (part(gradient).max(across) - dead_zone).clamp(0.0, 1.0);
             found = (if weights > 0.0 { ratio.map(|r| r / weights) } else { [1.0; 4] }, lambda);
             if weights > 1e-4 && gradient[1] > 0.0 {
                 break;
@@ -431,6 +434,7 @@ fn every_reachable_kind_of_blending() {
     check(&[Feedback, VarianceOfMean], &power(3.5));
     check(&[Gradient, BlinnPhong, VarianceOfMean], &power(3.5));
     check(&[Gradient, InPlace, VarianceOfMean, Objects], &power(1.0));
+    check(&[Gradient, AcrossSurfaces, InPlace, HistoryRatio, VarianceOfMean], &power(3.5));
     check(&[Gradient, InPlace, HistoryRatio, VarianceOfMean], &power(3.5));
     check(&[Gradient, InPlace, BlendByLambda, Feedback], &power(2.0));
     check(&[Gradient, InPlace, HistoryRatio, BlendByLambda, Feedback, VarianceOfMean, Objects], &power(0.0));
@@ -440,4 +444,5 @@ fn every_reachable_kind_of_blending() {
     let mut signed = power(3.5);
     (signed.filter.gradient_signed, signed.filter.gradient_dead_zone) = (true, 0.1);
     check(&[Gradient, VarianceOfMean], &signed);
+    check(&[Gradient, AcrossSurfaces, VarianceOfMean], &signed);
 }

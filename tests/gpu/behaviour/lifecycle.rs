@@ -2,7 +2,7 @@
 
 use crate::common::stage::Stage;
 use asvgf::scene::{GpuScene, builtin};
-use asvgf::{FilterSettings, Gradient, Mode, Sampling, Settings, TracerSettings, View};
+use asvgf::{FilterSettings, Gradient, Mode, Settings, View};
 
 fn still(size: [u32; 2]) -> Stage {
     Stage::built_in("cornell", "static", size, Settings::adaptive())
@@ -72,8 +72,7 @@ fn other_numbers_keep_the_history() {
     let mut stage = still([31, 17]);
     let before = stage.frames(6).largest(View::HistoryLength);
     let filter = FilterSettings { alpha: 0.3, sigma_luminance: 1.0, iterations: 2, ..Default::default() };
-    let tracer = TracerSettings { bounces: 1, sampling: Sampling::Lights, ..Default::default() };
-    stage.denoiser.set_settings(Settings { filter, tracer, ..Settings::adaptive() }).unwrap();
+    stage.denoiser.set_settings(Settings { filter, ..Settings::adaptive() }).unwrap();
     assert!(stage.frame().largest(View::HistoryLength) >= before);
 }
 

@@ -3,7 +3,7 @@
 use super::{colors, difference};
 use crate::common::gpu::gpu;
 use asvgf::{Denoiser, DenoiserDescriptor, Settings, Shading, Surfaces, View, ViewOptions};
-use wgpu::{TextureFormat, TextureView};
+use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 #[allow(dead_code, reason = "shared with the example, which uses the rest")]
 #[path = "../../../examples/support/host.rs"]
@@ -24,28 +24,35 @@ struct Stage {
 
 impl Stage {
     fn new() -> Self {
-        let descriptor = DenoiserDescriptor { size: SIZE, settings: Settings::adaptive(), ..Default::default() };
+        Self::of_size(SIZE)
+    }
+
+    fn of_size(size: [u32; 2]) -> Self {
+        let descriptor = DenoiserDescriptor { size, settings: Settings::adaptive(), ..Default::default() };
         Self {
-            renderer: Renderer::new(&gpu().device, SIZE),
+            renderer: Renderer::new(&gpu().device, size),
             denoiser: Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap(),
-            target: gpu().target(SIZE, TextureFormat::Rgba32Float),
+            target: gpu().target(size, TextureFormat::Rgba32Float),
             index: 0,
             motion: None,
         }
     }
 
     fn frame(&mut self, now: &Moment, before: &Moment) {
+        gpu().submit(|encoder| self.record(encoder, now, before));
+    }
+
+    fn record(&mut self, encoder: &mut CommandEncoder, now: &Moment, before: &Moment) {
         let r = &self.renderer;
-        gpu().submit(|encoder| {
-            let scene = r.scene(now, before);
-            r.draw(encoder, &scene);
-            let motion = self.motion.as_ref().unwrap_or(&r.motion);
-            let surfaces = Surfaces::new(now.matrices(SIZE), self.index, &r.depth, &r.normal, motion);
-            let reshade = self.denoiser.begin_frame(&gpu().device, encoder, &surfaces).unwrap().unwrap();
-            r.shade(encoder, &scene, &reshade);
-            let shading = Shading { albedo: Some(&r.albedo), ..Shading::new(&r.radiance, &self.target) };
-            self.denoiser.denoise(&gpu().device, encoder, &shading).unwrap();
-        });
+        let scene = r.scene(now, before);
+        r.draw(encoder, &scene);
+        let motion = self.motion.as_ref().unwrap_or(&r.motion);
+        let matrices = now.matrices(self.denoiser.size());
+        let surfaces = Surfaces::new(matrices, self.index, &r.depth, &r.normal, motion);
+        let reshade = self.denoiser.begin_frame(&gpu().device, encoder, &surfaces).unwrap().unwrap();
+        r.shade(encoder, &scene, &reshade);
+        let shading = Shading { albedo: Some(&r.albedo), ..Shading::new(&r.radiance, &self.target) };
+        self.denoiser.denoise(&gpu().device, encoder, &shading).unwrap();
         self.index += 1;
     }
 
@@ -126,6 +133,27 @@ fn what_a_ball_leaves_behind_is_forgotten() {
         lambda.iter().map(|l| l[0]).fold(0.0, f32::max)
     );
     assert_eq!(stage.largest(View::NonFinite), 0.0);
+}
+
+#[test]
+fn denoisers_of_two_sizes_share_an_encoder() {
+    let sizes = [SIZE, [41, 23]];
+    let frames = |stage: &mut Stage| {
+        for frame in 0..4 {
+            stage.frame(&Moment::at(frame), &Moment::at(frame.saturating_sub(1)));
+        }
+        colors(&stage.target)
+    };
+    let alone = sizes.map(|size| frames(&mut Stage::of_size(size)));
+    let mut together = sizes.map(Stage::of_size);
+    for frame in 0..4 {
+        gpu().submit(|encoder| {
+            for stage in &mut together {
+                stage.record(encoder, &Moment::at(frame), &Moment::at(frame.saturating_sub(1)));
+            }
+        });
+    }
+    assert_eq!(together.map(|stage| colors(&stage.target)), alone);
 }
 
 #[test]

@@ -1,0 +1,98 @@
+//! The images that passes hand to each other.
+
+use wgpu::TextureFormat;
+
+/// An image that passes hand to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Image {
+    /// Triangle number, u32.
+    Visibility,
+    /// Packed normal, depth.
+    Guide,
+    /// Motion and previous depth.
+    Motion,
+    /// Instance number.
+    Object,
+    /// This frame's demodulated radiance.
+    Radiance,
+    /// What it was divided by.
+    Albedo,
+    /// Emission towards the camera.
+    Emission,
+    /// Accumulated colour, variance, history length, λ.
+    History,
+    /// The history's colour, where it comes from the spatial filter.
+    Feedback,
+    /// Colour, variance, normal and depth between spatial iterations; two take turns.
+    Color(u8),
+    /// Records of the strata.
+    Samples,
+    /// Of each stratum what the host needs to repeat its path: two texels.
+    Repeats,
+    /// Demodulated radiance now of the pair that the host made for the stratum.
+    PairNow,
+    /// The radiance before of that pair.
+    PairBefore,
+    /// Radiances now of the gradient's pairs; two take turns while they are filtered.
+    PairsNow(u8),
+    /// Radiances before.
+    PairsBefore(u8),
+    /// Products of both.
+    PairsProduct(u8),
+    /// Numerator and denominator of λ on the stratum's surface, and on any; two take turns.
+    Gradient(u8),
+    /// What the history is multiplied with.
+    Ratio,
+    /// Sum over frames and their number.
+    Sum,
+}
+
+/// How many texels an image has, or invocations a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Grid {
+    /// One per pixel.
+    Pixels,
+    /// One per stratum of 3×3 pixels.
+    Strata,
+}
+
+impl Image {
+    /// Format of the texture.
+    pub fn format(self) -> TextureFormat {
+        match self {
+            Self::Visibility | Self::Object => TextureFormat::R32Uint,
+            Self::Guide | Self::Radiance | Self::Emission | Self::Feedback | Self::PairNow | Self::PairBefore => {
+                TextureFormat::Rg32Uint
+            }
+            Self::History | Self::Samples | Self::Repeats | Self::Color(_) => TextureFormat::Rgba32Uint,
+            Self::Albedo => TextureFormat::Rgba16Float,
+            Self::PairsProduct(_) => TextureFormat::R32Float,
+            Self::Gradient(_) => TextureFormat::Rgba32Float,
+            Self::Motion | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
+                TextureFormat::Rgba32Float
+            }
+        }
+    }
+
+    /// Its size.
+    pub fn grid(self) -> Grid {
+        match self {
+            Self::Samples
+            | Self::Repeats
+            | Self::PairNow
+            | Self::PairBefore
+            | Self::PairsNow(_)
+            | Self::PairsBefore(_)
+            | Self::PairsProduct(_)
+            | Self::Gradient(_)
+            | Self::Ratio => Grid::Strata,
+            _ => Grid::Pixels,
+        }
+    }
+
+    /// Texels side by side for each pixel or stratum.
+    pub fn texels(self) -> u32 {
+        if self == Self::Repeats { 2 } else { 1 }
+    }
+}

@@ -1,0 +1,81 @@
+//! What a frame has to offer, as far as shaders depend on it.
+
+/// What a scene has. Everything that is absent is left out of the shaders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Traits {
+    /// Meshes move or repeat: two levels of trees.
+    pub instanced: bool,
+    /// Materials have textures.
+    pub textures: bool,
+    /// Meshes have interpolated normals.
+    pub shading_normals: bool,
+    /// Some surface is not purely Lambertian.
+    pub specular: bool,
+    /// Some material is cut out by its opacity.
+    pub alpha_mask: bool,
+    /// Triangles emit light.
+    pub emitters: bool,
+    /// There are lights without area.
+    pub punctual_lights: bool,
+    /// There is an environment that is not black.
+    pub environment: bool,
+    /// Some material is shown unlit.
+    pub unlit: bool,
+    /// So few triangles, on an adapter that is the CPU, that testing each is faster than a tree.
+    pub few_triangles: bool,
+}
+
+/// What a host's views have. Everything that is absent is left out of the shaders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct HostTraits {
+    /// Normals are points of the unfolded octahedron.
+    pub octahedral_normals: bool,
+    /// Normals come as 0…1 instead of −1…1.
+    pub mapped_normals: bool,
+    /// Normals are two 16-bit numbers in one word.
+    pub packed_normals: bool,
+    /// The depth that each point had is given.
+    pub previous_depth: bool,
+    /// Objects are numbered.
+    pub instances: bool,
+    /// … by floats.
+    pub float_instances: bool,
+    /// There is an albedo.
+    pub albedo: bool,
+    /// Emission is given apart.
+    pub emission: bool,
+    /// The radiance was divided by the albedo and has no emission.
+    pub demodulated: bool,
+    /// The gradient's pairs are luminances.
+    pub luminance_pairs: bool,
+    /// There is one pair per stratum instead of an image with mostly none.
+    pub stratum_pairs: bool,
+    /// The pairs' paths stand in the radiance in the place of their pixels' own.
+    pub pairs_in_place: bool,
+    /// The λ image is a confidence, 1 − λ.
+    pub confidence: bool,
+    /// Input that has to be cleaned is counted.
+    pub diagnostics: bool,
+}
+
+/// How rays find triangles: numbers that the shaders which follow rays are compiled with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Traversal {
+    /// Down the trees.
+    Tree {
+        /// Slots of the traversal's stack.
+        stack: u32,
+    },
+    /// By testing each, see [`Feature::FewTriangles`](super::Feature::FewTriangles).
+    Every {
+        /// How many there are, a multiple of 8.
+        triangles: u32,
+    },
+}
+
+impl Default for Traversal {
+    fn default() -> Self {
+        Self::Tree { stack: 4 }
+    }
+}

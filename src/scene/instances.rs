@@ -1,0 +1,99 @@
+//! Trees placed in the world: the top level over them, and their records as shaders/shared/scene.wgsl reads them.
+
+use super::Pose;
+use super::bvh::{self, Quantization};
+use super::folded::{self, Texel};
+use glam::{Mat4, Vec3, Vec4};
+
+/// Texels of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
+pub(super) const NODE_TEXELS: usize = 2;
+const RECORD_TEXELS: usize = 12;
+
+/// A tree placed in the world.
+#[derive(Debug)]
+pub(super) struct Instance {
+    /// The node that places it; `None` for the static geometry, which is in world space already.
+    pub node: Option<usize>,
+    pub root: u32,
+    pub first_row: u32,
+    pub row_count: u32,
+    /// First number in the visibility buffer.
+    pub first_id: u32,
+    pub first_light: u32,
+    pub bounds: [[f32; 3]; 2],
+    pub grid: Quantization,
+}
+
+impl Instance {
+    /// Where it stands in a pose.
+    pub fn placement(&self, pose: &Pose) -> Mat4 {
+        self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
+    }
+}
+
+/// Nodes of a top level over this many instances, at most: each inner node joins two.
+pub(super) fn top_level_nodes(instances: usize) -> usize {
+    instances.saturating_sub(1).max(1)
+}
+
+/// Texels of the top level and the records, in whole rows.
+pub(super) fn top_level_texels(instances: usize) -> usize {
+    (top_level_nodes(instances) * NODE_TEXELS + instances * RECORD_TEXELS).next_multiple_of(folded::WIDTH)
+}
+
+/// The top level and the records of instances.
+pub(super) struct Placed {
+    pub texels: Vec<Texel>,
+    /// Of the top level.
+    pub depth: u32,
+    pub grid: Quantization,
+}
+
+/// The top level and the instances' records, with the placements of a pose and the one before.
+pub(super) fn place(instances: &[Instance], pose: &Pose, before: &Pose, first_node: u32) -> Placed {
+    let boxes: Vec<_> = instances.iter().map(|i| transform_box(i.placement(pose), i.bounds)).collect();
+    let top = bvh::over_instances(&boxes, first_node);
+    let mut texels = folded::texels(&top.nodes).to_vec();
+    // As many nodes as any tree over these instances can have, so that the records stay where they are.
+    texels.resize(top_level_nodes(instances.len()) * NODE_TEXELS, Texel::default());
+    for instance in instances {
+        let now = instance.placement(pose);
+        let mirrored = u32::from(now.determinant() < 0.0);
+        texels.extend(rows(now));
+        texels.extend(rows(inverse(now)));
+        texels.extend(rows(instance.placement(before)));
+        texels.push(padded(instance.grid.base));
+        texels.push(padded(instance.grid.step));
+        texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
+    }
+    Placed { texels, depth: top.depth, grid: top.grid }
+}
+
+fn padded(v: [f32; 3]) -> Texel {
+    [v[0].to_bits(), v[1].to_bits(), v[2].to_bits(), 0]
+}
+
+/// The three rows of an affine matrix.
+fn rows(m: Mat4) -> [Texel; 3] {
+    [m.row(0), m.row(1), m.row(2)].map(|r: Vec4| r.to_array().map(f32::to_bits))
+}
+
+/// The inverse, in double precision; a placement that flattens has none and is never hit: its inverse is taken as 0.
+fn inverse(m: Mat4) -> Mat4 {
+    let m = m.as_dmat4();
+    if m.determinant() == 0.0 { Mat4::ZERO } else { m.inverse().as_mat4() }
+}
+
+/// A box around a box after a placement.
+fn transform_box(m: Mat4, [low, high]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
+    let (mut a, mut b) = (Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY));
+    for corner in 0..8 {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        let p = m.transform_point3(Vec3::new(pick(0), pick(1), pick(2)));
+        a = a.min(p);
+        b = b.max(p);
+    }
+    // Rounding in the transformation may not lose a hit on the box's face.
+    let margin = (a.abs().max(b.abs())) * 4e-7;
+    [(a - margin).to_array(), (b + margin).to_array()]
+}

@@ -1,0 +1,58 @@
+//! Materials as shaders/shared/scene.wgsl reads them.
+
+use super::texels::{self, GpuTexture, Place};
+use super::{Alpha, Material};
+use bytemuck::{Pod, Zeroable};
+
+/// `Material` of scene.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub(super) struct GpuMaterial {
+    base_color: [f32; 4],
+    emissive: [f32; 3],
+    flags: u32,
+    metallic: f32,
+    roughness: f32,
+    specular: f32,
+    cutoff: f32,
+    base_color_texture: GpuTexture,
+    metallic_roughness_texture: GpuTexture,
+    emissive_texture: GpuTexture,
+}
+
+/// The materials, as bright as a pose's emission makes them.
+pub(super) fn materials(materials: &[Material], emission: &[f32], images: &[Place]) -> Vec<GpuMaterial> {
+    let texture = |t| texels::texture_use(t, images);
+    materials
+        .iter()
+        .zip(emission)
+        .map(|(m, factor)| GpuMaterial {
+            base_color: m.base_color,
+            emissive: m.emissive.map(|e| e * factor),
+            flags: u32::from(m.double_sided) | u32::from(m.unlit) << 1,
+            metallic: m.metallic,
+            roughness: m.roughness,
+            specular: m.specular,
+            cutoff: match m.alpha {
+                Alpha::Opaque => 0.0,
+                Alpha::Mask(cutoff) => cutoff,
+            },
+            base_color_texture: texture(m.base_color_texture),
+            metallic_roughness_texture: texture(m.metallic_roughness_texture),
+            emissive_texture: texture(m.emissive_texture),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::twins::layout::{assert_layout, fields};
+
+    #[test]
+    fn a_material_lies_where_the_shaders_read_it() {
+        let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, specular, cutoff,
+            base_color_texture, metallic_roughness_texture, emissive_texture);
+        assert_layout("Material", material, size_of::<GpuMaterial>());
+    }
+}
