@@ -90,7 +90,7 @@ pub fn all() -> Vec<Method> {
 type Change = fn(&mut FilterSettings);
 
 /// Each idea of the default (docs/filter.md), undone.
-const ABLATIONS: [(&str, Change); 9] = [
+const ABLATIONS: [(&str, Change); 10] = [
     ("without gradient", |f| f.gradient = Gradient::Off),
     ("without ratio", |f| f.history_ratio = false),
     ("without linear fit", |f| f.local_linear_fit = false),
@@ -102,6 +102,7 @@ const ABLATIONS: [(&str, Change); 9] = [
     }),
     ("25 taps", |f| f.kernel = Kernel::Full),
     ("blend by lambda", |f| f.blend = Blend::Lambda),
+    ("gradient by surface", |f| f.gradient_across_surfaces = false),
     ("signed gradient", |f| {
         // The settings that its documentation asks for.
         (f.gradient_signed, f.gradient_iterations, f.gradient_dead_zone) = (true, 5, 0.1);

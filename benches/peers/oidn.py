@@ -1,0 +1,75 @@
+"""Intel Open Image Denoise on the sequences that `report --sequences` writes, as baselines for `report --baseline`.
+
+usage: python oidn.py SEQUENCES OUT
+needs: pip install pyoidn numpy OpenEXR
+
+SEQUENCES is report's DIR/sequences. Writes OUT/NAME/SEQUENCE/denoised_0022.exr, … and times.txt for NAME in oidn-fast, oidn-balanced,
+oidn-high, and average-oidn-high: the same on top of a moving average along the motion, of which the times know nothing. What
+surfaces emit is taken out before and put back after, or small lamps would be blurred over their surroundings.
+"""
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+from pyoidn.denoise import denoise
+
+ALPHA = 0.2
+
+
+def read(path):
+    """The layers of a frame, by name; the colour's is ''."""
+    channels = OpenEXR.File(str(path), separate_channels=True).channels()
+    layer = lambda name, axes: np.stack([channels[f'{name}.{a}' if name else a].pixels for a in axes], -1).astype(np.float32)
+    wanted = {'': 'RGB', 'albedo': 'RGB', 'emission': 'RGB', 'normal': 'XYZ', 'motion': 'XY', 'id': 'I'}
+    frame = {n: layer(n, axes) for n, axes in wanted.items() if (f'{n}.{axes[0]}' if n else axes[0]) in channels}
+    frame.setdefault('emission', np.zeros_like(frame['']))
+    frame[''] = np.maximum(frame[''] - frame['emission'], 0)
+    return frame
+
+
+def average(frame, before, history):
+    """Blends a frame with what its surfaces were in the last one; new surfaces start anew."""
+    color = frame['']
+    if history is None:
+        return color
+    height, width = color.shape[:2]
+    y, x = np.mgrid[0:height, 0:width]
+    motion = frame.get('motion', np.zeros((height, width, 2)))
+    u, v = (np.floor(at + 0.5 + motion[..., axis]).astype(int) for axis, at in enumerate((x, y)))
+    known = (u >= 0) & (v >= 0) & (u < width) & (v < height)
+    u, v = np.clip(u, 0, width - 1), np.clip(v, 0, height - 1)
+    if 'id' in frame:
+        known &= (before['id'][v, u] == frame['id'])[..., 0]
+    return np.where(known[..., None], ALPHA * color + (1 - ALPHA) * history[v, u], color).astype(np.float32)
+
+
+def run(folder, out, quality, averaged):
+    out.mkdir(parents=True, exist_ok=True)
+    times, before, history = [], None, None
+    for path in sorted(folder.glob('frame_*.exr')):
+        frame = read(path)
+        history = average(frame, before, history) if averaged else frame['']
+        before = frame
+        guides = {name: np.ascontiguousarray(frame[name]) for name in ('albedo', 'normal')}
+        filtered = lambda: denoise(np.ascontiguousarray(history), **guides, hdr=True, quality=quality)
+        if not times:
+            filtered()  # warms up
+        start = time.perf_counter()
+        image = filtered()
+        times.append(1e3 * (time.perf_counter() - start))
+        image = image + frame['emission']
+        header = {'compression': OpenEXR.ZIP_COMPRESSION, 'type': OpenEXR.scanlineimage}
+        channels = {name: np.ascontiguousarray(image[..., i]) for i, name in enumerate('RGB')}
+        OpenEXR.File(header, channels).write(str(out / path.name.replace('frame', 'denoised')))
+    (out / 'times.txt').write_text(''.join(f'{ms:.4f}\n' for ms in times))
+
+
+if __name__ == '__main__':
+    sequences, out = map(Path, sys.argv[1:3])
+    for folder in sorted(path for path in sequences.iterdir() if path.is_dir()):
+        for quality in ('fast', 'balanced', 'high'):
+            run(folder, out / f'oidn-{quality}' / folder.name, quality, averaged=False)
+        run(folder, out / 'average-oidn-high' / folder.name, 'high', averaged=True)
+        print(folder.name)
