@@ -23,7 +23,8 @@ Usage: cargo run --release --features metrics --example report -- [OPTIONS]
   --out DIR             folder for everything; made if missing           [target/report]
   --baseline NAME=DIR   also score another denoiser's frames. DIR/SEQUENCE/ holds
                         denoised_0022.exr, …, and may hold times.txt with the
-                        milliseconds of each frame, one a line. May be repeated
+                        milliseconds of each frame, one a line, to which those of
+                        tracing it are added. May be repeated
   --sequences           also write the frames, as the example `denoise` reads them, and
                         their references: DIR/sequences/SEQUENCE/
   -h, --help            print this

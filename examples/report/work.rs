@@ -9,7 +9,7 @@ use crate::suite::{Sequence, Suite, TURN};
 use crate::summary::Summary;
 use crate::truth::{self, Rgb, Truth};
 use crate::words::Chapter;
-use crate::{baseline, crops, plots};
+use crate::{baseline, crops, plots, verdict};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
 use std::fs;
@@ -85,8 +85,9 @@ impl<'a> Work<'a> {
         if !missing.is_empty() {
             self.dropped.push(format!("{name}: {}", missing.join(", ")));
         }
+        let traced = verdict::find(&summaries, ONE_PATH).map_or(Vec::new(), |summary| summary.passes.clone());
         for baseline in baselines {
-            if let Some(run) = baseline::run(baseline, &name, &truth.moments, suite.size)? {
+            if let Some(run) = baseline::run(baseline, &name, &truth.moments, suite.size, &traced)? {
                 summaries.push(Summary::of(&run, &baseline.name, Group::Baseline));
             }
         }

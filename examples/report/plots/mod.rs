@@ -23,6 +23,8 @@ use std::path::Path;
 const SIZE: (u32, u32) = (960, 600);
 const FONT: (&str, i32) = ("sans-serif", 15);
 const TITLE: (&str, i32) = ("sans-serif", 20);
+/// Larger, as the room for a legend is estimated for narrower letters.
+const LEGEND: (&str, i32) = ("sans-serif", 18);
 /// Pixels for the labels of the axes.
 const LABELS: u32 = 64;
 
@@ -111,7 +113,7 @@ fn legend<'a, B: DrawingBackend<ErrorType: 'static> + 'a, Y: Ranged<ValueType = 
     chart: &mut Chart<'a, B, Y>,
 ) -> Drawn {
     let labels = &mut chart.configure_series_labels();
-    labels.position(SeriesLabelPosition::UpperRight).label_font(FONT);
+    labels.position(SeriesLabelPosition::UpperRight).label_font(LEGEND);
     Ok(labels.background_style(WHITE.mix(0.8)).border_style(BLACK.mix(0.3)).draw()?)
 }
 
