@@ -80,7 +80,7 @@ impl Kernel {
     }
 
     /// Names of the bindings of a group.
-    #[cfg(test)]
+    #[cfg(all(test, feature = "path-tracer"))]
     pub fn names(&self, group: usize) -> impl Iterator<Item = &str> {
         self.groups.get(group).into_iter().flat_map(|(_, names)| names.iter().map(|(_, name)| name.as_str()))
     }
