@@ -7,8 +7,6 @@ mod camera;
 mod camera_fit;
 #[path = "support/layers.rs"]
 mod layers;
-#[path = "support/metrics.rs"]
-mod metrics;
 #[path = "support/scoring.rs"]
 mod scoring;
 #[path = "support/sequence.rs"]

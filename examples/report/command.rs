@@ -10,7 +10,9 @@ use std::path::PathBuf;
 pub const HELP: &str = "\
 Measures error against run time, and writes tables, plots and pictures of it.
 
-Usage: cargo run --release --features metrics --example report -- [OPTIONS]
+Usage: cargo run --release --example report -- [OPTIONS]
+
+With `--features flip` (which needs a C++ compiler) FLIP and its maps are in it too.
 
   --suite NAME          quick: three sequences and a choice of methods, in minutes on a
                         software adapter; full: everything                      [quick]

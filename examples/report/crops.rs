@@ -3,7 +3,6 @@
 use crate::canvas::{Canvas, LETTER};
 use crate::tone;
 use crate::truth::Rgb;
-use asvgf::metrics::{PIXELS_PER_DEGREE, Pair, encode, flip};
 use std::error::Error;
 use std::path::Path;
 
@@ -15,13 +14,15 @@ const WHITE: [u8; 4] = [235, 235, 235, 255];
 /// Small pictures are magnified to about so many pixels.
 const WIDTH: u32 = 288;
 
-/// Writes renderings with their names, the reference last; below each but that one its FLIP map, and the map's mean.
+/// Writes renderings with their names, the reference last; below each but that one, with the feature `flip`, its FLIP map, and the
+/// map's mean.
 pub fn write(path: &Path, size: [u32; 2], tiles: &[(String, Vec<Rgb>)]) -> Result<(), Box<dyn Error>> {
     let Some((_, reference)) = tiles.last() else { return Ok(()) };
     let scale = (WIDTH / size[0]).max(1) as i32;
     let [width, height] = size.map(|side| side as i32 * scale);
     let bar = LETTER + 4;
-    let side = [tiles.len() as i32 * (width + GAP) - GAP, 2 * (bar + height) + GAP];
+    let rows = if cfg!(feature = "flip") { 2 } else { 1 };
+    let side = [tiles.len() as i32 * (width + GAP) - GAP, rows * (bar + height + GAP) - GAP];
     let mut canvas = Canvas::new(side.map(|pixels| pixels as u32), GREY);
     let exposure = exposure(reference);
     let mut tile = |[column, row]: [i32; 2], label: &str, pixels: &[[u8; 4]]| {
@@ -32,11 +33,15 @@ pub fn write(path: &Path, size: [u32; 2], tiles: &[(String, Vec<Rgb>)]) -> Resul
             canvas.set([left + x, top + bar + y], pixel);
         }
     };
-    let truth = encode(reference, exposure);
     for (column, (label, colors)) in tiles.iter().enumerate() {
         let pixels: Vec<_> = colors.iter().map(|&color| tone::pixel(color, exposure)).collect();
         tile([column as i32, 0], label, &pixels);
-        if column + 1 < tiles.len() {
+    }
+    #[cfg(feature = "flip")]
+    {
+        use asvgf::metrics::{PIXELS_PER_DEGREE, Pair, encode, flip};
+        let truth = encode(reference, exposure);
+        for (column, (_, colors)) in tiles[..tiles.len() - 1].iter().enumerate() {
             let shown = encode(colors, exposure);
             let map = flip(&Pair::new(&shown, &truth)?, size, PIXELS_PER_DEGREE)?;
             tile([column as i32, 1], &format!("FLIP {:.4}", map.mean), &map.picture());

@@ -1,4 +1,4 @@
-//! Measures error against run time: `cargo run --release --features metrics --example report -- --help`.
+//! Measures error against run time: `cargo run --release --example report -- --help`.
 
 mod baseline;
 mod canvas;

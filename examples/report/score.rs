@@ -3,7 +3,7 @@
 use crate::record::{Row, Settling, finite};
 use crate::suite::TURN;
 use crate::truth::{Moment, RELIT, Rgb};
-use asvgf::metrics::{self, MetricError, PIXELS_PER_DEGREE, Pair};
+use asvgf::metrics::{self, MetricError, Pair};
 use std::thread;
 
 /// A ghost is looked for in what changed less than so many frames ago.
@@ -54,7 +54,10 @@ fn fill_one(
     let shown = Pair::new(&image, &reference)?.counting(&moment.counted)?;
     row.psnr = finite(metrics::psnr(&shown, 1.0));
     row.ssim = finite(metrics::ssim(&shown, size)?);
-    row.flip = finite(metrics::flip(&shown, size, PIXELS_PER_DEGREE)?.mean);
+    #[cfg(feature = "flip")]
+    {
+        row.flip = finite(metrics::flip(&shown, size, metrics::PIXELS_PER_DEGREE)?.mean);
+    }
     Ok(())
 }
 

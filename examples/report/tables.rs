@@ -5,6 +5,9 @@ use crate::gpu::Gpu;
 use crate::record::{COLUMNS, Row};
 use crate::times::Clock;
 
+/// What the command that is written down needs for the same columns.
+const FEATURES: &str = if cfg!(feature = "flip") { "--features flip " } else { "" };
+
 /// What does not exist is empty.
 pub fn csv(rows: &[Row]) -> String {
     let names: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
@@ -44,7 +47,7 @@ pub fn facts(command: &Command, gpu: &Gpu) -> Vec<String> {
         format!("References of {} paths per pixel, with random numbers of their own", suite.paths),
         format!("{} ({:?}), {} {}", adapter.name, adapter.backend, adapter.driver, adapter.driver_info),
         format!("Times from {clock}"),
-        format!("`cargo run --release --features metrics --example report -- {}`", arguments.join(" ")),
+        format!("`cargo run --release {FEATURES}--example report -- {}`", arguments.join(" ")),
         format!("Version {} of the crate", env!("CARGO_PKG_VERSION")),
     ]
 }

@@ -1,14 +1,14 @@
 //! The scores of a denoised sequence that lies in files.
 
 use crate::layers::{Layer, Names};
-use crate::metrics::{self, Pair};
 use crate::sequence::{Pixels, Sequence};
 use asvgf::image_io::{self, Channels};
+use asvgf::metrics::{self, MetricError, Pair};
 use std::error::Error;
 use std::fmt;
 use std::path::Path;
 
-/// Means over the frames of what metrics.rs defines.
+/// Means over the frames.
 #[derive(Clone, Copy, Debug)]
 pub struct Scores {
     pub rel_mse: f64,
@@ -33,8 +33,8 @@ struct Frame {
 }
 
 impl Frame {
-    fn pair(&self) -> Pair<'_> {
-        Pair { image: &self.image, reference: &self.reference, counted: &self.counted }
+    fn pair(&self) -> Result<Pair<'_>, MetricError> {
+        Pair::new(&self.image, &self.reference)?.counting(&self.counted)
     }
 }
 
@@ -45,16 +45,16 @@ pub fn score(out: &Path, input: &Path) -> Result<Scores, Box<dyn Error>> {
     let mut before: Option<Frame> = None;
     for frame in sequence.first..=sequence.last {
         let now = read(&sequence, out, input, frame)?;
-        scores[0].push(metrics::rel_mse(&now.pair()));
-        scores[1].push(metrics::bias(&now.pair()));
+        scores[0].push(metrics::relative_mse(&now.pair()?));
+        scores[1].push(metrics::bias(&now.pair()?));
         if let Some(before) = &before {
-            let origins = origins(&sequence, &now, before);
-            scores[2].push(metrics::flicker(&now.pair(), &before.pair(), &origins));
+            let origins = origins(&sequence, &now, before)?;
+            scores[2].push(metrics::flicker(&now.pair()?, &before.pair()?, &origins)?);
         }
         before = Some(now);
     }
     let frames = scores[0].len();
-    let [rel_mse, bias, flicker] = scores.map(|values| metrics::mean(values.into_iter()));
+    let [rel_mse, bias, flicker] = scores.map(|values| values.iter().sum::<f64>() / values.len().max(1) as f64);
     Ok(Scores { rel_mse, bias, flicker, frames })
 }
 
@@ -84,17 +84,10 @@ fn colors(sequence: &Sequence, path: &Path) -> Result<Vec<[f32; 3]>, Box<dyn Err
 }
 
 /// For each counted pixel the one of the last frame that its motion leads to, if it is of the same object.
-fn origins(sequence: &Sequence, now: &Frame, before: &Frame) -> Vec<Option<usize>> {
-    let size = sequence.size.map(|s| s as usize);
-    let motion = now.pixels.get(Layer::Motion);
+fn origins(sequence: &Sequence, now: &Frame, before: &Frame) -> Result<Vec<Option<usize>>, MetricError> {
+    let pixels = now.counted.len();
+    let motion = now.pixels.get(Layer::Motion).map_or_else(|| vec![[0.0; 2]; pixels], |m| m.as_chunks().0.to_vec());
     let ids = now.pixels.get(Layer::Id).zip(before.pixels.get(Layer::Id));
-    let origin = |p: usize| {
-        let offset = |axis: usize| motion.map_or(0.0, |m| m[2 * p + axis]);
-        let at = |axis: usize, pixel: usize| (pixel as f32 + 0.5 + offset(axis)).floor();
-        let (x, y) = (at(0, p % size[0]), at(1, p / size[0]));
-        let inside = x >= 0.0 && y >= 0.0 && x < size[0] as f32 && y < size[1] as f32;
-        let q = inside.then(|| y as usize * size[0] + x as usize)?;
-        (now.counted[p] && ids.is_none_or(|(now, before)| now[p] == before[q])).then_some(q)
-    };
-    (0..now.counted.len()).map(origin).collect()
+    let same = |p: usize, q: usize| now.counted[p] && ids.is_none_or(|(now, before)| now[p] == before[q]);
+    metrics::origins(sequence.size, &motion, same)
 }

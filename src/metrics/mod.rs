@@ -1,6 +1,6 @@
 //! How far an image is from the truth, and how a sequence behaves when the truth changes.
 //!
-//! Of one frame: [`rmse`], [`relative_mse`], [`psnr`], [`bias`], [`ssim`], [`flip`]. Of a sequence: [`flicker`], [`lag`],
+//! Of one frame: [`rmse`], [`relative_mse`], [`psnr`], [`bias`], [`ssim`], and with the feature `flip` ꟻLIP. Of a sequence: [`flicker`], [`lag`],
 //! [`ghost_energy`]. Images are slices of linear colours, first row first. A [`Pair`] holds an image `a`, its reference `b`, and
 //! which pixels count; all of its sizes are checked once, when it is made.
 //!
@@ -9,6 +9,7 @@
 mod display;
 mod error;
 mod flicker;
+#[cfg(feature = "flip")]
 mod flip;
 mod ghost;
 mod lag;
@@ -20,6 +21,7 @@ mod ssim;
 pub use display::encode;
 pub use error::MetricError;
 pub use flicker::flicker;
+#[cfg(feature = "flip")]
 pub use flip::{Flip, PIXELS_PER_DEGREE, flip};
 pub use ghost::{ages, ghost_energy};
 pub use lag::{Lag, lag};

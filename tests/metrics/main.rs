@@ -1,6 +1,8 @@
 //! Metrics against known answers: an image and itself, constant offsets, known noise, and what other programs say.
 #![cfg(all(feature = "metrics", feature = "image"))]
 
+#[cfg(feature = "flip")]
+mod flip;
 mod frames;
 mod perception;
 mod refusals;

@@ -1,7 +1,7 @@
 //! Arguments that do not belong together are refused by name.
 
 use crate::grey;
-use asvgf::metrics::{MetricError, PIXELS_PER_DEGREE, Pair, ages, flicker, flip, ghost_energy, lag, origins, ssim};
+use asvgf::metrics::{MetricError, Pair, ages, flicker, ghost_energy, lag, origins, ssim};
 
 fn length(what: &'static str, found: usize, expected: usize) -> MetricError {
     MetricError::Length { what, found, expected }
@@ -26,11 +26,8 @@ fn sizes_that_are_not_the_images() {
     let pair = Pair::new(&image, &image).unwrap();
     let wrong = MetricError::Size { width: 4, height: 2, found: 6 };
     assert_eq!(ssim(&pair, [4, 2]).unwrap_err(), wrong);
-    assert_eq!(flip(&pair, [4, 2], PIXELS_PER_DEGREE).unwrap_err(), wrong);
     assert_eq!(origins([4, 2], &[[0.0; 2]; 6], |_, _| true).unwrap_err(), wrong);
     assert_eq!(ssim(&pair, [3, 2]).unwrap_err(), MetricError::TooSmall { width: 3, height: 2, least: 11 });
-    let nothing = Pair::new(&[], &[]).unwrap();
-    assert!(flip(&nothing, [0, 0], PIXELS_PER_DEGREE).is_err());
 }
 
 #[test]

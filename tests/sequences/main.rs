@@ -1,5 +1,5 @@
 //! The offline tools of the examples: sequences of EXR files, their denoising and their scores.
-#![cfg(all(feature = "path-tracer", feature = "image"))]
+#![cfg(all(feature = "path-tracer", feature = "image", feature = "metrics"))]
 #![allow(dead_code, reason = "the examples' modules, of which each example uses its part")]
 
 #[path = "../../examples/support/arguments.rs"]
@@ -18,8 +18,6 @@ mod film;
 mod gpu;
 #[path = "../../examples/support/layers.rs"]
 mod layers;
-#[path = "../../examples/support/metrics.rs"]
-mod metrics;
 #[path = "../../examples/support/replay.rs"]
 mod replay;
 #[path = "../../examples/support/scoring.rs"]
@@ -37,4 +35,3 @@ mod filtering;
 mod folder;
 mod names;
 mod refusals;
-mod scores;
