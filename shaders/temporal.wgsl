@@ -196,7 +196,7 @@ fn add_stratum(
 }
 
 // What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is on the
-// surface or none of their paths found light, which tells nothing.
+// surface.
 //
 // With ACROSS_SURFACES, λ is not below what all paths around saw together, on whatever surface: a thin pillar has few of its own, and a change that
 // these missed (of indirect light, say, which one path in twenty finds) would stay for a whole history.
@@ -209,7 +209,7 @@ fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Cha
         add_stratum(&sum, base + vec2(i & 1, i >> 1u), grid, here, normal, depth);
     }
     // A loop of length 0 elsewhere, see `reproject`.
-    let searched = select(0, 16, seen && (sum.weight <= 1e-4 || sum.gradient.y <= 0.0));
+    let searched = select(0, 16, seen && sum.weight <= 1e-4);
     if searched > 0 {
         sum = Strata();
     }

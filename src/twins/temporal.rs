@@ -243,8 +243,7 @@ impl Given {
         })
     }
 
-    /// Ratio and λ of the strata around a pixel on its surface: of the 2×2, or else of the 4×4; λ, where those saw no light, of
-    /// the 4×4 on any surface.
+    /// Ratio and λ of the strata around a pixel on its surface: of the 2×2, or else of the 4×4.
     fn change(&self, i: usize, x: i32, y: i32, unsure: &mut bool) -> ([f64; 4], f64) {
         let z = depth(self.guide[i]);
         let here = Site { position: self.bench.position(x, y, z), normal: unpack_normal(self.guide[i][0]), depth: z };
@@ -280,7 +279,7 @@ impl Given {
             let across = across + across.powi(3);
             let lambda = (part(gradient).max(across) - dead_zone).clamp(0.0, 1.0);
             found = (if weights > 0.0 { ratio.map(|r| r / weights) } else { [1.0; 4] }, lambda);
-            if weights > 1e-4 && gradient[1] > 0.0 {
+            if weights > 1e-4 {
                 break;
             }
         }
