@@ -115,19 +115,26 @@ impl Camera {
         let half = [f64::from(size[0]) / 2.0, f64::from(size[1]) / 2.0];
         let (du, dv) = (scale(right, pixel), scale(up, -pixel));
         let corner = subtract(subtract(forward, scale(du, half[0])), scale(dv, half[1]));
+        Ok(CameraUniform::new(eye, forward, [corner, du, dv], self.jitter))
+    }
+}
+
+impl CameraUniform {
+    /// From where, which way, and the affine map from pixel to ray: corner, du, dv.
+    fn new(eye: [f64; 3], forward: [f64; 3], [corner, du, dv]: [[f64; 3]; 3], jitter: [f32; 2]) -> Self {
         let narrow = |v: [f64; 3]| v.map(|x| x as f32);
-        Ok(CameraUniform {
-            eye: self.eye,
-            jitter_x: self.jitter[0],
+        Self {
+            eye: narrow(eye),
+            jitter_x: jitter[0],
             forward: narrow(forward),
-            jitter_y: self.jitter[1],
+            jitter_y: jitter[1],
             corner: narrow(corner),
             pad: 0.0,
             du: narrow(du),
             inverse_du: (1.0 / dot(du, du)) as f32,
             dv: narrow(dv),
             inverse_dv: (1.0 / dot(dv, dv)) as f32,
-        })
+        }
     }
 }
 
@@ -180,19 +187,8 @@ impl Matrices {
         if dot(du, dv).abs() > 1e-4 * (dot(du, du) * dot(dv, dv)).sqrt() {
             return wrong("projection", "shears the image");
         }
-        let narrow = |v: [f64; 3]| v.map(|x| x as f32);
-        Ok(CameraUniform {
-            eye: narrow(scale(world(translation), -1.0)),
-            jitter_x: self.jitter[0],
-            forward: narrow(world([0.0, 0.0, side])),
-            jitter_y: self.jitter[1],
-            corner: narrow(corner),
-            pad: 0.0,
-            du: narrow(du),
-            inverse_du: (1.0 / dot(du, du)) as f32,
-            dv: narrow(dv),
-            inverse_dv: (1.0 / dot(dv, dv)) as f32,
-        })
+        let eye = scale(world(translation), -1.0);
+        Ok(CameraUniform::new(eye, world([0.0, 0.0, side]), [corner, du, dv], self.jitter))
     }
 }
 

@@ -80,6 +80,8 @@ fn project(camera: Camera, position: vec3<f32>) -> vec3<f32> {
     return vec3(dot(d, camera.du) * camera.inverse_du, dot(d, camera.dv) * camera.inverse_dv, depth);
 }
 
+// Passes that store only at their own pixel or stratum do not ask this of it: WGSL drops stores outside of a texture, and a
+// branch around a whole shader makes every read of a uniform slower on a software adapter (docs/performance.md).
 fn inside(pixel: vec2<i32>) -> bool {
     return all(vec2<u32>(pixel) < frame.size);
 }

@@ -223,7 +223,16 @@ impl GpuScene {
         }
         header.light_count = light_table.len() as u32;
 
+        // One slot for the bottom, one for the mark between the levels, one that is written before it is known to be kept.
+        let (placements, depth) = placements(&mut header, instanced, &instances, &pose, &pose);
+        let stack = (geometry.depth + depth + 3).next_multiple_of(4);
+        if stack > LARGEST_STACK {
+            let reason = format!("their tree has {stack} levels, {LARGEST_STACK} at most can be traversed");
+            return Err(SceneError { file: "scene".into(), element: "triangles".into(), reason });
+        }
         let mut texels = folded::texels(&geometry.rows).to_vec();
+        texels.extend(std::iter::repeat_n(Texel::default(), top - texels.len()));
+        texels.extend(placements);
         texels.resize(top + top_texels, Texel::default());
         texels.extend_from_slice(folded::texels(&geometry.nodes));
         check_texels(device, "triangles and their trees", texels.len())?;
@@ -242,7 +251,7 @@ impl GpuScene {
             },
             revision: 0,
             traits,
-            stack: 0,
+            stack,
             pose: pose.clone(),
             moved: false,
             instances,
@@ -251,39 +260,31 @@ impl GpuScene {
             first_punctual,
             punctual,
             materials: scene.materials.clone(),
-            images,
             header,
             buffers: Buffers {
-                scene: empty.clone(),
-                // Replaced below, once the placements are known.
-                geometry: folded("geometry", &[]),
+                scene: buffer(device, "scene", bytemuck::bytes_of(&header), BufferUsages::UNIFORM),
+                geometry: folded("geometry", &texels),
                 attributes: storage(device, "normals and texture coordinates", &geometry.attributes, 4),
                 texels: storage(device, "texels", &words, 4),
-                materials: folded("materials", &[]),
+                materials: {
+                    let materials = materials::materials(&scene.materials, &pose.emission, &images);
+                    folded("materials", folded::texels(&materials))
+                },
+                // Replaced below, once the lights have their places.
                 lights: folded("lights", &[]),
                 analytic_lights: empty.clone(),
                 analytic_lights_previous: empty.clone(),
                 facets: empty.clone(),
                 facet_owners: empty,
             },
+            images,
             triangles: geometry.rows.len(),
             few: traits.few_triangles.then(|| geometry.rows.iter().map(|row| row.map(corner)).collect()),
         };
-        let (placements, depth) = this.placements(&pose);
-        texels[top..top + placements.len()].copy_from_slice(&placements);
-        this.buffers.geometry = folded("geometry", &texels);
-        this.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&this.header), BufferUsages::UNIFORM);
-        this.buffers.materials = folded("materials", folded::texels(&this.gpu_materials()));
         this.place_lights(device);
         this.buffers.lights = folded("lights", folded::texels(&this.light_table));
         this.upload_facets(device);
         this.buffers.analytic_lights_previous = this.buffers.analytic_lights.clone();
-        // One slot for the bottom, one for the mark between the levels, one that is written before it is known to be kept.
-        this.stack = (geometry.depth + depth + 3).next_multiple_of(4);
-        if this.stack > LARGEST_STACK {
-            let reason = format!("their tree has {} levels, {LARGEST_STACK} at most can be traversed", this.stack);
-            return Err(SceneError { file: "scene".into(), element: "triangles".into(), reason });
-        }
         Ok(this)
     }
 
@@ -311,7 +312,7 @@ impl GpuScene {
         // One frame more than the movement lasts, so that what has stopped is where it was.
         let moves = before.world != pose.world;
         if self.traits.instanced && (moves || self.moved) {
-            let (placements, _) = self.placements(&before);
+            let (placements, _) = placements(&mut self.header, true, &self.instances, &self.pose, &before);
             self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
             let first_row = self.header.root / (folded::WIDTH / NODE_TEXELS) as u32;
             folded::replace(device, encoder, &self.buffers.geometry.0, first_row, &placements);
@@ -324,7 +325,8 @@ impl GpuScene {
             self.place_lights(device);
             folded::replace(device, encoder, &self.buffers.lights.0, 0, folded::texels(&self.light_table));
             if before.emission != pose.emission {
-                folded::replace(device, encoder, &self.buffers.materials.0, 0, folded::texels(&self.gpu_materials()));
+                let materials = materials::materials(&self.materials, &pose.emission, &self.images);
+                folded::replace(device, encoder, &self.buffers.materials.0, 0, folded::texels(&materials));
             }
         }
         Ok(())
@@ -388,18 +390,6 @@ impl GpuScene {
         Some(buffer.as_entire_binding())
     }
 
-    /// The top level and the instances' records with the placements of this pose and the one before, and the top level's depth.
-    /// Empty where there is one level.
-    fn placements(&mut self, before: &Pose) -> (Vec<Texel>, u32) {
-        if !self.traits.instanced {
-            self.header.set_grid(self.instances[0].grid);
-            return (Vec::new(), 0);
-        }
-        let placed = instances::place(&self.instances, &self.pose, before, self.header.root);
-        self.header.set_grid(placed.grid);
-        (placed.texels, placed.depth)
-    }
-
     /// The triangles of all instances in world space, where each of them is tested.
     fn upload_facets(&mut self, device: &Device) {
         let Some(corners) = &self.few else { return };
@@ -419,10 +409,6 @@ impl GpuScene {
         self.buffers.facet_owners = uniform("owners of facets", bytemuck::cast_slice(&owners));
     }
 
-    fn gpu_materials(&self) -> Vec<materials::GpuMaterial> {
-        materials::materials(&self.materials, &self.pose.emission, &self.images)
-    }
-
     /// Puts the lights where they are in this pose.
     fn place_lights(&mut self, device: &Device) {
         let mut analytic: Vec<AnalyticLight> =
@@ -440,6 +426,24 @@ impl GpuScene {
         analytic.iter_mut().for_each(|light| light.count = count);
         self.buffers.analytic_lights = storage(device, "analytic lights", &analytic, size_of::<AnalyticLight>());
     }
+}
+
+/// The top level and the instances' records with the placements of a pose and the one before, and the top level's depth. Empty
+/// where there is one level. The header gets the grid of the boxes that rays meet first.
+fn placements(
+    header: &mut Header,
+    instanced: bool,
+    instances: &[Instance],
+    pose: &Pose,
+    before: &Pose,
+) -> (Vec<Texel>, u32) {
+    if !instanced {
+        header.set_grid(instances[0].grid);
+        return (Vec::new(), 0);
+    }
+    let placed = instances::place(instances, pose, before, header.root);
+    header.set_grid(placed.grid);
+    (placed.texels, placed.depth)
 }
 
 /// The vertex in a texel of the lookup table.
