@@ -110,6 +110,7 @@ fn test_eight(nearest: ptr<function, Nearest>, origin: vec3<f32>, direction: vec
     test(nearest, origin, direction, i + 7u);
 }
 
+// Not the nearest one and a comparison: a limit that stays, and nothing to remember, make tracing 6 % faster.
 fn blocked_by_eight(origin: vec3<f32>, direction: vec3<f32>, limit: f32, i: u32) -> bool {
     return meet(kept[i], origin, direction, limit).inside
         | meet(kept[i + 1u], origin, direction, limit).inside
