@@ -87,7 +87,7 @@ fn measure(
     let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).expect("it fits");
     let timing = gpu.adapter.device_type != DeviceType::Cpu
         && gpu.device.features().contains(asvgf::wgpu::Features::TIMESTAMP_QUERY);
-    let descriptor = DenoiserDescriptor { size, settings, timing, ..Default::default() };
+    let descriptor = DenoiserDescriptor { size, settings, timing, views: true, ..Default::default() };
     let mut denoiser = Denoiser::new(&gpu.device, &gpu.queue, &descriptor).expect("a denoiser");
     let target = gpu.target(size, TextureFormat::Rgba32Float);
     let mut samples = BTreeMap::<&'static str, Vec<f64>>::new();

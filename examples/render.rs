@@ -127,7 +127,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     bar.finish_and_clear();
     if let Some(plan) = film.denoiser.plan().filter(|_| options.explain) {
-        say(&table::plan(plan, &scene.traits()));
+        say(&format!("\n{plan}"));
     }
     let rays = film.numbers(View::Rays)?.iter().map(|pixel| f64::from(pixel[0])).sum();
     say(&times::table(&timed, Some(rays), options.size, &gpu));

@@ -144,6 +144,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let variance = own_variance;
 #endif
     let own_luminance = luminance(own_color);
+    // A filter blurs by about as much as the noise that it is told of: below some noise it does more harm than good.
+    let converged = variance <= frame.converged * frame.converged * own_luminance * own_luminance;
     let normal = unpack_normal(own.z);
     var plane = tangent_plane(vec2<f32>(pixel), normal, depth);
 #ifdef CLASSIC_STOPS
@@ -196,7 +198,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let filtered = sums.color / sums.weight;
 #endif
     // A miss is carried on as it is: it filters nothing, and what comes of it is not kept.
-    let result = pack_tap(filtered, sqrt(sums.variance) / sums.weight, own.zw);
+    let result = select(pack_tap(filtered, sqrt(sums.variance) / sums.weight, own.zw), own, converged);
     textureStore(color_out, pixel, select(vec4(0u), result, depth > 0.0));
 #ifdef FEEDBACK
     textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(filtered), depth > 0.0), 0u, 0u));

@@ -6,7 +6,9 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_tap, pack_length_lambda, unpack_length}
+#ifndef STILL
 #import asvgf::reproject::{Origin, origin_of, same_surface}
+#endif
 #ifdef EXTERNAL_LAMBDA
 #import asvgf::color::is_finite
 #endif
@@ -18,7 +20,9 @@
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
+#ifndef STILL
 @group(0) @binding(3) var motion: texture_2d<f32>;
+#endif
 #ifdef OBJECTS
 @group(0) @binding(4) var object: texture_2d<u32>;
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
@@ -50,6 +54,7 @@
 fn history_at(tap: vec2<i32>) -> vec4<u32> {
     return textureLoad(history_previous, tap);
 }
+#ifndef STILL
 #ifdef FEEDBACK
 @group(0) @binding(2) var guide_previous: texture_2d<u32>;
 
@@ -63,13 +68,16 @@ fn guide_at(tap: vec2<i32>) -> vec2<u32> {
     return textureLoad(guide_previous, tap).xy;
 }
 #endif
+#endif
 #else
-@group(0) @binding(2) var guide_previous: texture_2d<u32>;
 @group(0) @binding(7) var history_previous: texture_2d<u32>;
+#ifndef STILL
+@group(0) @binding(2) var guide_previous: texture_2d<u32>;
 
 fn guide_at(tap: vec2<i32>) -> vec2<u32> {
     return textureLoad(guide_previous, tap, 0).xy;
 }
+#endif
 
 fn history_at(tap: vec2<i32>) -> vec4<u32> {
     return textureLoad(history_previous, tap, 0);
@@ -85,6 +93,21 @@ struct History {
     weight: f32,
 }
 
+#ifdef STILL
+// The pixel's own, in an image that stands still.
+fn history_of(pixel: vec2<i32>) -> History {
+    let h = history_at(pixel);
+    let length = unpack_length(h.w);
+#ifdef FEEDBACK
+    let color = unpack_rgb(textureLoad(feedback_previous, pixel, 0).xy);
+    let mean = bitcast<f32>(h.x);
+#else
+    let color = unpack_rgb(h.xy);
+    let mean = luminance(color);
+#endif
+    return History(color, mean, bitcast<f32>(h.z), length, select(0.0, 1.0, length > 0.0));
+}
+#else
 struct Taps {
     color: vec3<f32>,
     mean: f32,
@@ -150,6 +173,7 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> Hist
     let variance = sum.variance * scale + max(sum.square * scale - mean * mean, 0.0);
     return History(sum.color * scale, mean, variance, sum.length * scale, sum.weight);
 }
+#endif
 
 #ifdef GRADIENT
 struct Change {
@@ -258,6 +282,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let l = luminance(sample);
     var history = History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
     if frame.continued != 0u {
+#ifdef STILL
+        history = history_of(pixel);
+#else
         let m = textureLoad(motion, pixel, 0).xyz;
 #ifdef OBJECTS
         let here = textureLoad(object, pixel, 0).x;
@@ -265,6 +292,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let here = 0u;
 #endif
         history = reproject(pixel, m, origin_of(vec2<f32>(pixel), m, normal, here), seen);
+#endif
     }
     var color = sample;
     var mean = l;
@@ -275,7 +303,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var before = history.color;
         var mean_before = history.mean;
         var variance_before = history.variance;
-        var kept = history.length;
+        // A still image's history may be longer than the settings allow in one that moves.
+        var kept = min(history.length, frame.max_history);
 #ifdef GRADIENT
         let change = change_at(pixel, normal, depth, seen);
         lambda = change.lambda;

@@ -62,8 +62,10 @@
 #endif
 #endif
 #if VIEW == 7
+#ifndef UNCHANGED
 // Gradient.
 @group(0) @binding(8) var gradient: texture_2d<f32>;
+#endif
 #endif
 #if VIEW >= 8
 #if VIEW <= 11
@@ -145,8 +147,12 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return textureLoad(motion, pixel, 0).xyz;
 #endif
 #if VIEW == 7
+#ifdef UNCHANGED
+    return vec3(0.0);
+#else
     let g = textureLoad(gradient, pixel / 3, 0).xy;
     return vec3(clamp(abs(g.x) / max(g.y, 1e-30) - frame.dead_zone, 0.0, 1.0));
+#endif
 #endif
 #if VIEW == 8
     return vec3(unpack_lambda(textureLoad(history, pixel, 0).w));

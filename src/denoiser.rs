@@ -3,24 +3,23 @@
 #[cfg(feature = "path-tracer")]
 use crate::camera::Camera;
 use crate::camera::CameraUniform;
-use crate::gpu::compose::{Permutation, Shaders};
+use crate::gpu::compose::Permutation;
 use crate::gpu::counts::{Counters, InputCounts};
 use crate::gpu::frame::{FrameUniform, Moment};
-use crate::gpu::kernel::Kernel;
-use crate::gpu::textures::{Textures, strata};
+use crate::gpu::pipelines::Pipelines;
+use crate::gpu::textures::Textures;
 use crate::gpu::timing::{FrameQueries, FrameTimes, Timing};
 use crate::host;
 use crate::passes::{self, Pass};
+use crate::plan::{Changes, Decision, HostTraits, Plan, Slot, Step, Traversal};
 #[cfg(feature = "path-tracer")]
-use crate::plan::Feature;
-use crate::plan::{Grid, Plan, Slot, Step, Traversal};
+use crate::plan::{Feature, Traits};
 #[cfg(feature = "path-tracer")]
 use crate::scene::GpuScene;
 use crate::settings::Settings;
 #[cfg(feature = "path-tracer")]
-use crate::settings::{Gradient, Mode};
+use crate::settings::{Gradient, Mode, TracerSettings};
 use crate::{Error, View, ViewOptions};
-use std::collections::HashMap;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
     BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, DeviceType,
@@ -41,6 +40,25 @@ pub struct DenoiserDescriptor {
     pub timing: bool,
     /// Count the pixels of a host's frames that have to be cleaned, for [`Denoiser::take_counts`].
     pub diagnostics: bool,
+    /// Keep every intermediate image until the next frame, so that [`Denoiser::show`] can show any. Costs memory: without it images
+    /// that are no longer read give their textures to others.
+    pub views: bool,
+    /// What is compiled.
+    pub specialize: Specialize,
+    /// Another denoiser's [`Denoiser::pipelines`], to share what is compiled; it must be of the same device.
+    pub pipelines: Option<Pipelines>,
+}
+
+/// What is compiled, and with it what each frame runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Specialize {
+    /// Just what the scene, the settings and what changed since the last frame need: the least work. Where these change, something
+    /// new may have to be compiled: [`Denoiser::prepare`] does it ahead.
+    #[default]
+    Exactly,
+    /// Everything that the materials and lights of such a scene and any frame of these settings may need: compiled once, whatever
+    /// changes, and nothing is left out. (Instances, normals, an environment and the views of a host are a matter of what is bound.)
+    Everything,
 }
 
 /// One frame of a path-traced scene.
@@ -77,28 +95,18 @@ pub struct Requirements {
 pub struct Denoiser {
     pub(crate) size: [u32; 2],
     pub(crate) settings: Settings,
-    shaders: ShadersDebug,
-    kernels: HashMap<Permutation, Kernel>,
+    pipelines: Pipelines,
     pub(crate) textures: Textures,
     strides: Buffer,
     /// The adapter is the CPU.
     on_cpu: bool,
+    pub(crate) specialize: Specialize,
     pub(crate) timing: Option<Timing>,
     pub(crate) counters: Option<Counters>,
     /// A host's frame that waits for its light.
     pub(crate) begun: Option<host::Begun>,
     pub(crate) last: Option<LastFrame>,
-    pub(crate) parity: usize,
     pub(crate) history: bool,
-}
-
-/// The composer has no `Debug` of its own.
-struct ShadersDebug(Shaders);
-
-impl std::fmt::Debug for ShadersDebug {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Shaders")
-    }
 }
 
 /// What the next frame, and [`Denoiser::show`], need of the last one.
@@ -109,6 +117,9 @@ pub(crate) struct LastFrame {
     pub camera: CameraUniform,
     pub source: Source,
     pub index: u32,
+    /// How its paths were traced.
+    #[cfg(feature = "path-tracer")]
+    pub tracer: TracerSettings,
 }
 
 /// Where a frame's samples came from.
@@ -150,6 +161,11 @@ impl Denoiser {
             return Err(error);
         }
         check_size(device, descriptor.size)?;
+        let pipelines = match &descriptor.pipelines {
+            Some(shared) if shared.belong_to(device) => shared.clone(),
+            Some(_) => return Err(Error::OtherDevice),
+            None => Pipelines::new(device)?,
+        };
         let mut strides = vec![0_u8; 9 * STRIDE_SPACING as usize];
         for i in 0..9 {
             let at = i * STRIDE_SPACING as usize;
@@ -158,22 +174,57 @@ impl Denoiser {
         Ok(Self {
             size: descriptor.size,
             settings: descriptor.settings.clone(),
-            shaders: ShadersDebug(Shaders::new()?),
-            kernels: HashMap::new(),
-            textures: Textures::default(),
+            pipelines,
+            textures: Textures::new(descriptor.views),
             strides: device.create_buffer_init(&BufferInitDescriptor {
                 label: Some("asvgf strides"),
                 contents: &strides,
                 usage: BufferUsages::UNIFORM,
             }),
             on_cpu: device.adapter_info().device_type == DeviceType::Cpu,
+            specialize: descriptor.specialize,
             timing: descriptor.timing.then(|| Timing::new(queue)),
             counters: descriptor.diagnostics.then(Counters::default),
             begun: None,
             last: None,
-            parity: 0,
             history: false,
         })
+    }
+
+    /// Compiles ahead what frames of a scene may need with the settings in force, whatever changes from one to the next, so that
+    /// none of them has to wait. `target` is the format of [`Frame::target`]. May take seconds.
+    ///
+    /// # Errors
+    /// [`Error::Shader`], which is a defect of this crate.
+    #[cfg(feature = "path-tracer")]
+    pub fn prepare(&self, scene: &GpuScene, target: TextureFormat) -> Result<(), Error> {
+        let traits = self.traits(scene);
+        self.every_change().iter().try_for_each(|&changes| {
+            let plan = self.adapt(Plan::path_traced(&traits, &self.settings, changes, target));
+            self.compile(&plan.steps, scene.traversal())
+        })
+    }
+
+    /// As [`Denoiser::prepare`], for a host's frames: `traits` tells what its views have, and `target` is the format of
+    /// [`Shading::target`](crate::Shading::target).
+    ///
+    /// # Errors
+    /// As [`Denoiser::prepare`].
+    pub fn prepare_hosted(&self, traits: &HostTraits, target: TextureFormat) -> Result<(), Error> {
+        self.every_change().iter().try_for_each(|&changes| {
+            let plan = self.adapt(Plan::hosted(traits, &self.settings, changes, target));
+            self.compile(&plan.steps, Traversal::default())
+        })
+    }
+
+    /// What is compiled, to share with another denoiser of the same device.
+    pub fn pipelines(&self) -> &Pipelines {
+        &self.pipelines
+    }
+
+    /// Why each piece of the last frame was in or left out.
+    pub fn decisions(&self) -> &[Decision] {
+        self.plan().map_or(&[], |plan| &plan.decisions)
     }
 
     /// The settings in force.
@@ -223,12 +274,12 @@ impl Denoiser {
         self.size
     }
 
-    /// Bytes of the denoiser's own textures.
+    /// Bytes of the denoiser's own textures, see [`Plan::bytes`].
     pub fn memory(&self) -> u64 {
         self.textures.bytes()
     }
 
-    /// What the last frame ran, and why each piece was in.
+    /// What the last frame ran, and why each piece was in or left out.
     pub fn plan(&self) -> Option<&Plan> {
         self.last.as_ref().map(|l| &l.plan)
     }
@@ -277,25 +328,38 @@ impl Denoiser {
         }
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let camera = frame.camera.uniform(self.size)?;
-        let plan = self.adapt(Plan::path_traced(&scene.traits(), &self.settings, format));
-        self.compile(device, &plan.steps, scene.traversal())?;
-        self.abandon();
-        let lost = self.textures.fit(device, self.size, &plan);
+        let traits = self.traits(scene);
+        let most = self.adapt(Plan::path_traced(&traits, &self.settings, Changes::ANY, format));
         let version = scene.version();
         let last = self.last.as_ref();
         let same_scene = |l: &LastFrame| matches!(l.source, Source::Scene([scene, _]) if scene == version[0]);
-        let mut continued = self.history && !lost && last.is_some_and(same_scene);
+        let mut continued = self.history && self.textures.has_all_before(&most) && last.is_some_and(same_scene);
+        let same_version = last.is_some_and(|l| l.source == Source::Scene(version) && !scene.moved());
         if self.settings.mode == Mode::Reference {
             // A mean over frames is only one of frames that are alike.
-            continued &= last.is_some_and(|l| l.source == Source::Scene(version) && l.camera == camera);
+            continued &= same_version && last.is_some_and(|l| l.camera == camera);
         }
-        if plan.features.has(Feature::Reshade) {
+        if most.features.has(Feature::Reshade) {
             // The scene knows the placements of the last frame only, and the paths to repeat are that frame's.
             continued &= last.is_some_and(|l| l.index.wrapping_add(1) == index);
         }
-        let previous = last.filter(|_| continued).map_or(camera, |l| l.camera);
-        let uniform = self.frame_uniform(device, &Moment { camera, previous, index, continued, lambda_block: 1 });
-        self.parity ^= 1;
+        let last = last.filter(|_| continued);
+        let changes =
+            self.changes(last.map(|l| Changes {
+                camera: l.camera != camera,
+                scene: !same_version || l.tracer != self.settings.tracer,
+            }));
+        let plan = match changes {
+            Changes::ANY => most.clone(),
+            changes => self.adapt(Plan::path_traced(&traits, &self.settings, changes, format)),
+        };
+        self.compile(&plan.steps, scene.traversal())?;
+        let previous = last.map_or(camera, |l| l.camera);
+        let moment = Moment { camera, previous, index, continued, lambda_block: 1, converges: plan.converges() };
+        let uniform = self.frame_uniform(device, &moment);
+        self.abandon();
+        self.textures.begin();
+        self.textures.place(device, self.size, &plan, (0, plan.steps.len()), &most);
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         let given = |name: &str| scene.resource(name);
         let resources =
@@ -305,8 +369,34 @@ impl Denoiser {
             timing.end(device, encoder, queries);
         }
         self.history = true;
-        self.last = Some(LastFrame { plan, uniform, camera, source: Source::Scene(version), index });
+        let tracer = self.settings.tracer.clone();
+        self.last = Some(LastFrame { plan, uniform, camera, source: Source::Scene(version), index, tracer });
         Ok(())
+    }
+
+    /// What differs in plans of one kind of frame.
+    fn every_change(&self) -> &'static [Changes] {
+        match self.specialize {
+            Specialize::Exactly => &[Changes::ANY, Changes { camera: true, scene: false }, Changes::NONE],
+            Specialize::Everything => &[Changes::ANY],
+        }
+    }
+
+    /// What the shaders are to be able to do.
+    #[cfg(feature = "path-tracer")]
+    fn traits(&self, scene: &GpuScene) -> Traits {
+        match self.specialize {
+            Specialize::Exactly => scene.traits(),
+            Specialize::Everything => scene.traits().everything(),
+        }
+    }
+
+    /// What a frame may leave out of what it knows not to have changed; nothing is known where there is no last frame.
+    pub(crate) fn changes(&self, known: Option<Changes>) -> Changes {
+        match self.specialize {
+            Specialize::Exactly => known.unwrap_or_default(),
+            Specialize::Everything => Changes::ANY,
+        }
     }
 
     /// Records the display of an intermediate image of the last recorded frame, into an `rgba32float` or `rgba16float` view as
@@ -330,9 +420,9 @@ impl Denoiser {
         let Some(last) = self.last.take() else {
             return Err(Error::NoView { view, reason: "no frame was rendered yet" });
         };
-        let step = passes::view::step(view, &last.plan, self.settings.mode, format);
+        let step = passes::view::step(view, &last.plan, self.settings.mode, format, |image| self.textures.holds(image));
         let result = step.and_then(|step| {
-            self.compile(device, std::slice::from_ref(&step), Traversal::default())?;
+            self.compile(std::slice::from_ref(&step), Traversal::default())?;
             let show = device.create_buffer_init(&BufferInitDescriptor {
                 label: Some("asvgf view"),
                 contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
@@ -414,15 +504,9 @@ impl Denoiser {
         if self.on_cpu { plan.on_cpu() } else { plan }
     }
 
-    pub(crate) fn compile(&mut self, device: &Device, steps: &[Step], traversal: Traversal) -> Result<(), Error> {
-        for step in steps {
-            let permutation = Self::permutation(step, traversal);
-            if !self.kernels.contains_key(&permutation) {
-                let kernel = Kernel::new(device, &mut self.shaders.0, permutation)?;
-                self.kernels.insert(permutation, kernel);
-            }
-        }
-        Ok(())
+    /// Compiles what steps need, if it was not done.
+    pub(crate) fn compile(&self, steps: &[Step], traversal: Traversal) -> Result<(), Error> {
+        steps.iter().try_for_each(|step| self.pipelines.kernel(Self::permutation(step, traversal)).map(|_| ()))
     }
 
     fn dispatch<'a>(
@@ -433,18 +517,14 @@ impl Denoiser {
         resources: &Resources<'a>,
         timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) -> Result<(), Error> {
-        let permutation = Self::permutation(step, resources.traversal);
         let missing = |name: String| Error::Shader {
             shader: step.pass.name(),
             features: format!("{:?}", step.features),
             message: format!("nothing is bound to `{name}`"),
         };
-        let kernel = self.kernels.get(&permutation).ok_or_else(|| missing("pipeline".into()))?;
+        let kernel = self.pipelines.kernel(Self::permutation(step, resources.traversal))?;
         let groups = kernel.bind(device, |name| self.resource(step, resources, name)).map_err(missing)?;
-        let [width, height] = match step.grid {
-            Grid::Pixels => self.size,
-            Grid::Strata => strata(self.size),
-        };
+        let [width, height] = step.grid.extent(self.size);
         let label = format!("asvgf {}", step.pass.name());
         let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor { label: Some(&label), timestamp_writes });
         pass.set_pipeline(&kernel.pipeline);
@@ -472,8 +552,7 @@ impl Denoiser {
         }
         if let Some((_, slot)) = step.bindings.iter().find(|(n, _)| *n == name) {
             return match *slot {
-                Slot::Now(image) => self.textures.now(image, self.parity).map(BindingResource::TextureView),
-                Slot::Before(image) => self.textures.before(image, self.parity).map(BindingResource::TextureView),
+                Slot::Now(_) | Slot::Before(_) => self.textures.view(*slot).map(BindingResource::TextureView),
                 Slot::Target => given.target.map(BindingResource::TextureView),
                 Slot::Host => (given.given)(name),
             };

@@ -24,6 +24,9 @@ pub enum Error {
         /// The setting that needs it.
         setting: &'static str,
     },
+    /// The pipelines to share are of another device.
+    #[error("`DenoiserDescriptor::pipelines` belong to another device: share those of a denoiser of this one, or none")]
+    OtherDevice,
     /// The size of the image is 0 in a direction or larger than the device's textures may be.
     #[error("the image size {width}×{height} is outside 1…{limit}")]
     Size {

@@ -91,12 +91,14 @@ mod view;
 pub use camera::{Camera, Matrices, Viewpoint};
 #[cfg(feature = "path-tracer")]
 pub use denoiser::Frame;
-pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements};
+pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements, Specialize};
 pub use error::Error;
 pub use gpu::counts::InputCounts;
+pub use gpu::pipelines::Pipelines;
 pub use gpu::timing::FrameTimes;
 pub use host::{Lambda, Pairs, Reshade, Shading, Surfaces};
 pub use passes::Pass;
+pub use plan::Changes;
 pub use settings::*;
 pub use view::{View, ViewOptions};
 

@@ -2,6 +2,9 @@
 
 use crate::Error;
 
+/// Frames that a history can count.
+pub(crate) const LONGEST_HISTORY: f32 = 32768.0;
+
 /// Everything that can be set. All of it may change between two frames; what changes the compiled shaders says so.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
@@ -58,13 +61,14 @@ impl Settings {
             }
         };
         within("filter.alpha", f.alpha, 0.0, 1.0, "0…1")?;
-        within("filter.max_history", f.max_history, 1.0, 32768.0, "1…32768 frames")?;
+        within("filter.max_history", f.max_history, 1.0, LONGEST_HISTORY, "1…32768 frames")?;
         within("filter.history_power", f.history_power, 0.0, 64.0, "0…64")?;
         within("filter.gradient_gamma", f.gradient_gamma, 0.0, 1.0, "0…1")?;
         within("filter.gradient_iterations", f.gradient_iterations as f32, 0.0, 7.0, "0…7")?;
         within("filter.gradient_dead_zone", f.gradient_dead_zone, 0.0, 1.0, "0…1")?;
         within("filter.ratio_iterations", f.ratio_iterations as f32, 0.0, 7.0, "0…7")?;
         within("filter.iterations", f.iterations as f32, 0.0, 8.0, "0…8")?;
+        within("filter.converged", f.converged, 0.0, 1.0, "0…1")?;
         within("filter.sigma_luminance", f.sigma_luminance, 0.0, 1e6, "0…10⁶")?;
         within("filter.sigma_depth", f.sigma_depth, 1e-6, 1e6, "10⁻⁶…10⁶")?;
         within("filter.sigma_normal", f.sigma_normal, 0.0, 1e6, "0…10⁶")?;
@@ -141,6 +145,9 @@ pub struct FilterSettings {
     pub ridge: f32,
     /// Spatial iterations, 0…8, with steps of 1, 2, 4 … pixels. More: smoother, costlier, blurrier.
     pub iterations: u32,
+    /// Pixels whose noise (deviation over luminance) is below this are left as they are, in whatever iteration they get there, 0…1.
+    /// Higher: less time where there is little noise, and more of it stays. Lower: the filter blurs what no longer needs it. 0: never.
+    pub converged: f32,
     /// Luminance stop in standard deviations of the noise. Higher: smoother, edges of shadows blur. 0 filters nothing but
     /// what is equal.
     pub sigma_luminance: f32,
@@ -173,6 +180,7 @@ impl Default for FilterSettings {
             local_linear_fit: true,
             ridge: 0.25,
             iterations: 4,
+            converged: 0.03,
             sigma_luminance: 4.0,
             sigma_depth: 0.01,
             sigma_normal: 8.0,
@@ -203,6 +211,7 @@ impl FilterSettings {
             local_linear_fit: false,
             ridge: 0.25,
             iterations: 5,
+            converged: 0.0,
             sigma_luminance: 4.0,
             sigma_depth: 1.0,
             sigma_normal: 128.0,

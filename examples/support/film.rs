@@ -21,8 +21,13 @@ pub struct Film<'a> {
 impl<'a> Film<'a> {
     pub fn new(gpu: &'a Gpu, size: [u32; 2], settings: Settings) -> Result<Self, Error> {
         let clock = Clock::of(gpu);
-        let descriptor =
-            DenoiserDescriptor { size, settings, timing: clock == Clock::Timestamps, ..Default::default() };
+        let descriptor = DenoiserDescriptor {
+            size,
+            settings,
+            timing: clock == Clock::Timestamps,
+            views: true,
+            ..Default::default()
+        };
         Ok(Self {
             gpu,
             denoiser: Denoiser::new(&gpu.device, &gpu.queue, &descriptor)?,

@@ -54,14 +54,12 @@ fn expose(film: &mut Film<'_>, views: &Views, camera: Camera, index: u32, in_pla
         let missing = |view| Error::ViewMissing { view, setting: "a sequence", remedy: "add the layer to its frames" };
         let required = |layer: Layer| views.get(layer).ok_or_else(|| missing(layer.name()));
         let gradient = denoiser.settings().filter.gradient;
+        let camera = camera.viewpoint(denoiser.size());
+        let (depth, normal) = (required(Layer::Depth)?, required(Layer::Normal)?);
         let surfaces = Surfaces {
-            camera: camera.viewpoint(denoiser.size()),
-            index,
-            depth: required(Layer::Depth)?,
-            normal: required(Layer::Normal)?,
-            motion: &views.motion,
             previous_depth: views.get(Layer::PreviousDepth),
             instance: views.get(Layer::Id),
+            ..Surfaces::new(camera, index, depth, normal, &views.motion)
         };
         let pairs = views.get(Layer::GradientCurrent).zip(views.get(Layer::GradientPrevious));
         let pairs = pairs.map(|(current, previous)| Pairs { current, previous, in_place });

@@ -1,34 +1,8 @@
-//! What `render` prints of scenes and plans.
+//! What `render` prints of scenes.
 
 use crate::options::{Options, Source};
-use asvgf::plan::{Features, Grid, Plan};
 use asvgf::scene::{Scene, builtin};
 use std::fmt::Write as _;
-
-/// What the last frame ran.
-pub fn plan(plan: &Plan, traits: &asvgf::plan::Traits) -> String {
-    let list = |features: Features| features.iter().map(|f| format!("{f:?}")).collect::<Vec<_>>().join(" ");
-    let mut out = String::from("\nThe scene has\n");
-    // One `name: value` each, in the order of the documentation.
-    for line in format!("{traits:#?}").lines().filter(|line| line.contains(':')) {
-        let (name, value) = line.trim().trim_end_matches(',').split_once(": ").unwrap_or((line, ""));
-        let _ = writeln!(out, "  {name:<18}{}", if value == "true" { "yes" } else { "no: left out" });
-    }
-    let _ = writeln!(out, "\nWith the settings, that makes\n  {}", list(plan.features));
-    let _ = writeln!(out, "\nPasses, and what is compiled into each");
-    for (i, step) in plan.steps.iter().enumerate() {
-        let grid = if step.grid == Grid::Strata { "per 3×3 pixels" } else { "per pixel" };
-        let _ = writeln!(out, "{:>3} {:<22}{grid:<16}{}", i + 1, step.pass.name(), list(step.features));
-    }
-    let _ = writeln!(out, "\nImages");
-    for (image, before) in plan.images() {
-        let grid = if image.grid() == Grid::Strata { "per 3×3 pixels" } else { "per pixel" };
-        let kept = if before { "and the last frame's" } else { "" };
-        let line = format!("    {:<22}{grid:<16}{:<14}{kept}", format!("{image:?}"), format!("{:?}", image.format()));
-        let _ = writeln!(out, "{}", line.trim_end());
-    }
-    out
-}
 
 /// What can be rendered, and what is in the scene that was named.
 pub fn list(options: &Options, scene: &Scene) -> String {

@@ -55,6 +55,8 @@ struct Frame {
     dead_zone: f32,
     // Pixels of each direction that share a texel of the host's λ.
     lambda_block: u32,
+    // Deviation over luminance below which a pixel is left as it is.
+    converged: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

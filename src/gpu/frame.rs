@@ -1,8 +1,8 @@
 //! One frame's constants, as shaders/shared/frame.wgsl reads them.
 
-use super::textures::strata;
 use crate::camera::CameraUniform;
-use crate::settings::{Settings, Stops};
+use crate::plan::Grid;
+use crate::settings::{LONGEST_HISTORY, Settings, Stops};
 use bytemuck::{Pod, Zeroable};
 
 /// `Frame` of frame.wgsl.
@@ -33,6 +33,8 @@ pub(crate) struct FrameUniform {
     ratio_shrinkage: f32,
     dead_zone: f32,
     lambda_block: u32,
+    converged: f32,
+    padding: [u32; 3],
 }
 
 /// What differs from frame to frame.
@@ -44,6 +46,8 @@ pub(crate) struct Moment {
     pub continued: bool,
     /// Pixels of each direction that share a texel of the host's λ.
     pub lambda_block: u32,
+    /// Nothing changed: the mean goes on over all frames there were.
+    pub converges: bool,
 }
 
 impl FrameUniform {
@@ -61,19 +65,20 @@ impl FrameUniform {
             Stops::NoiseSubtracted => f.sigma_luminance * f.sigma_luminance,
             Stops::Classic => f.sigma_luminance,
         };
+        let (alpha, max_history) = if moment.converges { (0.0, LONGEST_HISTORY) } else { (f.alpha, f.max_history) };
         Self {
             camera: moment.camera,
             previous: moment.previous,
             size,
-            strata: strata(size),
+            strata: Grid::Strata.extent(size),
             index: moment.index,
             seed,
             continued: u32::from(moment.continued),
             samples,
             bounces,
             roulette,
-            alpha: f.alpha,
-            max_history: f.max_history,
+            alpha,
+            max_history,
             history_power: f.history_power,
             gradient_gamma: f.gradient_gamma,
             sigma_luminance,
@@ -88,6 +93,8 @@ impl FrameUniform {
             ratio_shrinkage: 90.0,
             dead_zone: f.gradient_dead_zone,
             lambda_block: moment.lambda_block,
+            converged: f.converged,
+            padding: [0; 3],
         }
     }
 }
@@ -101,7 +108,7 @@ mod tests {
     fn the_frame_lies_where_the_shader_reads_it() {
         let fields = fields!(FrameUniform: camera, previous, size, strata, index, seed, continued, samples, bounces, roulette,
             alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
-            ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block);
+            ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block, converged);
         assert_layout("Frame", fields, size_of::<FrameUniform>());
     }
 }

@@ -4,6 +4,7 @@ pub(crate) mod compose;
 pub(crate) mod counts;
 pub(crate) mod frame;
 pub(crate) mod kernel;
+pub(crate) mod pipelines;
 pub(crate) mod readback;
 pub(crate) mod textures;
 pub(crate) mod timing;

@@ -1,57 +1,88 @@
 //! The textures behind a plan's images.
 
-use crate::plan::{Grid, Image, Plan};
-use std::collections::BTreeMap;
+use crate::plan::{Image, Kind, Memory, Plan, Slot};
 use wgpu::{Device, Extent3d, TextureDescriptor, TextureDimension, TextureUsages, TextureView, TextureViewDescriptor};
 
-/// Strata of 3×3 pixels that cover an image.
-pub(crate) fn strata(size: [u32; 2]) -> [u32; 2] {
-    size.map(|s| s.div_ceil(3))
-}
-
-/// All images of one denoiser. Those of which the previous frame's is needed exist twice and swap roles.
+/// All textures of one denoiser.
 #[derive(Debug, Default)]
 pub(crate) struct Textures {
-    views: BTreeMap<Image, Vec<TextureView>>,
+    memory: Memory,
+    /// By the numbers of `memory`.
+    views: Vec<Option<TextureView>>,
+    /// What the frames were planned to use at most, when textures were last given up.
+    images: Vec<(Image, bool)>,
+    /// Keep every image until the next frame.
+    keep: bool,
     bytes: u64,
 }
 
 impl Textures {
-    /// Makes what a plan needs and drops what it does not. Returns whether an image of the previous frame is new, so that
-    /// there is no history.
-    pub fn fit(&mut self, device: &Device, size: [u32; 2], plan: &Plan) -> bool {
-        let needed: BTreeMap<Image, bool> = plan.images().into_iter().collect();
-        self.views.retain(|image, _| needed.contains_key(image));
-        self.grow(device, size, plan)
+    /// With `keep`, no texture is used for two images of one frame.
+    pub fn new(keep: bool) -> Self {
+        Self { keep, ..Default::default() }
     }
 
-    /// As [`Textures::fit`], and keeps what the plan does not need.
-    pub fn grow(&mut self, device: &Device, size: [u32; 2], plan: &Plan) -> bool {
-        let needed: BTreeMap<Image, bool> = plan.images().into_iter().collect();
-        self.views.retain(|image, views| needed.get(image).is_none_or(|&pair| views.len() == 1 + usize::from(pair)));
-        let mut lost = false;
-        for (&image, &pair) in &needed {
-            self.views.entry(image).or_insert_with(|| {
-                lost |= pair;
-                (0..1 + usize::from(pair)).map(|_| create(device, size, image)).collect()
-            });
+    /// Whether a frame that begins now finds all of the last one that a plan asks for.
+    pub fn has_all_before(&self, plan: &Plan) -> bool {
+        self.memory.has_all_before(&plan.steps)
+    }
+
+    /// Begins a frame.
+    pub fn begin(&mut self) {
+        self.memory.begin();
+    }
+
+    /// Makes what steps `from` to `to` of a plan use. The last of them end the frame: what is used for the last time is free for
+    /// others then, and what `most`, the plan if everything changes, needs of the last frame is left for the next.
+    pub fn place(&mut self, device: &Device, size: [u32; 2], plan: &Plan, (from, to): (usize, usize), most: &Plan) {
+        let needed = most.needed();
+        let last = to == plan.steps.len();
+        let over = |i: usize, slot: Slot| last && plan.is_over(from + i, slot, &needed, self.keep);
+        self.memory.place(&plan.steps[from..to], over);
+        if last {
+            self.memory.end(needed);
+            let images = most.images();
+            if images != self.images {
+                self.memory.shrink();
+                self.images = images;
+            }
         }
-        self.bytes = self.views.iter().map(|(i, v)| v.len() as u64 * bytes(*i, size)).sum();
-        lost
+        let kinds = self.memory.textures();
+        self.views.resize(kinds.len(), None);
+        for (number, (view, kind)) in self.views.iter_mut().zip(kinds).enumerate() {
+            match kind {
+                Some(kind)
+                    if view
+                        .as_ref()
+                        .is_none_or(|v| v.texture().format() != kind.format || texels(v) != kind.extent(size)) =>
+                {
+                    *view = Some(create(device, size, *kind, number));
+                }
+                Some(_) => {}
+                None => *view = None,
+            }
+        }
+        self.bytes = kinds.iter().flatten().map(|kind| kind.bytes(size)).sum();
     }
 
+    /// Drops a frame that was begun and not finished.
+    pub fn abandon(&mut self) {
+        self.memory.abandon();
+    }
+
+    /// Gives everything up.
     pub fn clear(&mut self) {
-        self.views.clear();
+        *self = Self::new(self.keep);
     }
 
-    /// This frame's view of an image; `parity` alternates from frame to frame.
-    pub fn now(&self, image: Image, parity: usize) -> Option<&TextureView> {
-        self.views.get(&image).and_then(|v| v.get(parity % v.len()))
+    /// The view behind a slot.
+    pub fn view(&self, slot: Slot) -> Option<&TextureView> {
+        self.views.get(self.memory.texture(slot)?)?.as_ref()
     }
 
-    /// The previous frame's.
-    pub fn before(&self, image: Image, parity: usize) -> Option<&TextureView> {
-        self.now(image, parity + 1)
+    /// Whether the last frame's image is still there.
+    pub fn holds(&self, image: Image) -> bool {
+        self.memory.holds(image)
     }
 
     /// Bytes of all textures.
@@ -60,22 +91,13 @@ impl Textures {
     }
 }
 
-fn extent(image: Image, size: [u32; 2]) -> [u32; 2] {
-    let [width, height] = match image.grid() {
-        Grid::Pixels => size,
-        Grid::Strata => strata(size),
-    };
-    [image.texels() * width, height]
+fn texels(view: &TextureView) -> [u32; 2] {
+    [view.texture().width(), view.texture().height()]
 }
 
-fn bytes(image: Image, size: [u32; 2]) -> u64 {
-    let [width, height] = extent(image, size).map(u64::from);
-    width * height * u64::from(image.format().block_copy_size(None).unwrap_or(0))
-}
-
-fn create(device: &Device, size: [u32; 2], image: Image) -> TextureView {
-    let [width, height] = extent(image, size);
-    let label = format!("asvgf {image:?}");
+fn create(device: &Device, size: [u32; 2], kind: Kind, number: usize) -> TextureView {
+    let [width, height] = kind.extent(size);
+    let label = format!("asvgf texture {number}");
     device
         .create_texture(&TextureDescriptor {
             label: Some(&label),
@@ -83,7 +105,7 @@ fn create(device: &Device, size: [u32; 2], image: Image) -> TextureView {
             mip_level_count: 1,
             sample_count: 1,
             dimension: TextureDimension::D2,
-            format: image.format(),
+            format: kind.format,
             usage: TextureUsages::STORAGE_BINDING | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC,
             view_formats: &[],
         })

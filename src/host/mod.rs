@@ -7,6 +7,7 @@ pub(crate) use record::Begun;
 pub(crate) use views::shape;
 
 use crate::Viewpoint;
+use crate::plan::Changes;
 use wgpu::{Buffer, TextureView};
 
 /// What a host's frame shows, before any light: the G-buffer.
@@ -40,6 +41,9 @@ pub struct Surfaces<'a> {
     /// Number of the object: two that touch are not mixed in time. First channel of `r8uint`, `r16uint`, `r32uint`, `rg32uint`,
     /// `rgba32uint`, `r16float` or `r32float`, …; only told apart, so any distinct numbers will do.
     pub instance: Option<&'a TextureView>,
+    /// What may have changed since the last frame. Where nothing has, passes are left out, and a still image converges. Anything may
+    /// have by default; that the camera moved is noticed anyway.
+    pub changes: Changes,
 }
 
 /// The light of a host's frame.
@@ -66,7 +70,7 @@ pub struct Shading<'a> {
 }
 
 impl<'a> Surfaces<'a> {
-    /// The least: without `previous_depth` and `instance`.
+    /// The least: without `previous_depth` and `instance`, and nothing known of `changes`.
     pub fn new(
         camera: impl Into<Viewpoint>,
         index: u32,
@@ -74,7 +78,16 @@ impl<'a> Surfaces<'a> {
         normal: &'a TextureView,
         motion: &'a TextureView,
     ) -> Self {
-        Self { camera: camera.into(), index, depth, normal, motion, previous_depth: None, instance: None }
+        Self {
+            camera: camera.into(),
+            index,
+            depth,
+            normal,
+            motion,
+            previous_depth: None,
+            instance: None,
+            changes: Changes::ANY,
+        }
     }
 }
 
@@ -120,7 +133,8 @@ pub struct Lambda<'a> {
 ///
 /// Put [`RESHADE_WGSL`](crate::RESHADE_WGSL) before the shader that starts the paths, bind these three, and shade what
 /// `asvgf_surface` returns, seeded as it says. Nothing else is asked: the pixels that repeat a path are ordinary ones. Nothing
-/// repeats in a first frame or after a restart.
+/// repeats in a first frame or after a restart, and where [`Surfaces::changes`] says that the scene has not changed there is none of
+/// these.
 #[derive(Clone, Debug)]
 pub struct Reshade {
     /// The frame's constants: a uniform buffer, `AsvgfFrame`.

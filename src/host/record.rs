@@ -7,7 +7,7 @@ use crate::gpu::counts::Counters;
 use crate::gpu::frame::Moment;
 use crate::gpu::timing::FrameQueries;
 use crate::passes::Pass;
-use crate::plan::{Feature, HostTraits, Image, Plan, Traversal};
+use crate::plan::{Changes, Feature, HostTraits, Image, Plan, Slot, Traversal};
 use crate::settings::{Gradient, Mode};
 use wgpu::{BindingResource, Buffer, CommandEncoder, Device, TextureFormat};
 
@@ -15,6 +15,7 @@ use wgpu::{BindingResource, Buffer, CommandEncoder, Device, TextureFormat};
 #[derive(Debug)]
 pub(crate) struct Begun {
     moment: Moment,
+    changes: Changes,
     uniform: Buffer,
     traits: HostTraits,
     counts: Option<Buffer>,
@@ -86,38 +87,44 @@ impl Denoiser {
         let mut traits = HostTraits { diagnostics: self.counters.is_some(), ..Default::default() };
         views::surfaces(&mut traits, surfaces, self.size)?;
         // What the light's views will have changes neither this half nor which of its images outlive the frame.
-        let plan = self.adapt(Plan::hosted(&traits, &self.settings, TextureFormat::Rgba32Float));
-        let steps = &plan.steps[..plan.surface_steps()];
-        self.compile(device, steps, Traversal::default())?;
-        self.abandon();
-        if self.textures.grow(device, self.size, &plan) {
-            self.history = false;
-        }
+        let all = |changes| Plan::hosted(&traits, &self.settings, changes, TextureFormat::Rgba32Float);
+        let most = self.adapt(all(Changes::ANY));
         let index = surfaces.index;
+        let history = self.history && self.textures.has_all_before(&most);
         let last = self.last.as_ref().filter(|l| {
             // Motion leads to the frame before, and a mean over frames is only one of frames that are alike.
-            self.history
+            history
                 && l.source == Source::Host
                 && l.index.wrapping_add(1) == index
                 && (self.settings.mode != Mode::Reference || l.camera == camera)
         });
+        let moved = |l: &LastFrame| surfaces.changes.camera || l.camera != camera;
+        let known = last.map(|l| Changes { camera: moved(l), scene: surfaces.changes.scene });
+        let changes = self.changes(known);
+        let plan = self.adapt(all(changes));
         let previous = last.map_or(camera, |l| l.camera);
-        let moment = Moment { camera, previous, index, continued: last.is_some(), lambda_block: 1 };
+        let converges = plan.converges();
+        let moment = Moment { camera, previous, index, continued: last.is_some(), lambda_block: 1, converges };
+        let steps = &plan.steps[..plan.surface_steps()];
+        self.compile(steps, Traversal::default())?;
+        self.abandon();
+        self.history = history;
+        self.textures.begin();
+        self.textures.place(device, self.size, &plan, (0, steps.len()), &most);
         let uniform = self.frame_uniform(device, &moment);
         let counts = self.counters.as_ref().map(|_| Counters::begin(device));
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
-        self.parity ^= 1;
         let host = |name: &str| surfaces.resource(name);
         let resources = Resources { counts: counts.as_ref(), ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
-        let image = |image| self.textures.now(image, self.parity).cloned();
+        let image = |image| self.textures.view(Slot::Now(image)).cloned();
         let reshade = match (image(Image::Guide), image(Image::Repeats)) {
             (Some(guide), Some(repeats)) if plan.features.has(Feature::Reshade) => {
                 Some(Reshade { frame: uniform.clone(), guide, repeats })
             }
             _ => None,
         };
-        self.begun = Some(Begun { moment, uniform, traits, counts, queries });
+        self.begun = Some(Begun { moment, changes, uniform, traits, counts, queries });
         Ok(reshade)
     }
 
@@ -149,15 +156,17 @@ impl Denoiser {
     ) -> Result<(), Error> {
         let begun = self.begun.as_ref().ok_or(Error::NotBegun)?;
         let format = self.check_target(shading.target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
-        let mut traits = begun.traits;
-        views::shading(&mut traits, shading, self.size, &self.settings)?;
-        let plan = self.adapt(Plan::hosted(&traits, &self.settings, format));
+        let (mut traits, changes) = (begun.traits, begun.changes);
+        views::shading(&mut traits, shading, self.size, (&self.settings, changes))?;
+        let plan = self.adapt(Plan::hosted(&traits, &self.settings, changes, format));
+        let most = self.adapt(Plan::hosted(&traits, &self.settings, Changes::ANY, format));
         let steps = &plan.steps[plan.surface_steps()..];
-        self.compile(device, steps, Traversal::default())?;
+        self.compile(steps, Traversal::default())?;
         let Some(Begun { mut moment, mut uniform, counts, mut queries, .. }) = self.begun.take() else {
             return Err(Error::NotBegun);
         };
-        let lost = self.textures.fit(device, self.size, &plan);
+        let lost = !self.textures.has_all_before(&plan);
+        self.textures.place(device, self.size, &plan, (plan.surface_steps(), plan.steps.len()), &most);
         let block = shading.lambda.as_ref().map_or(1, |l: &Lambda<'_>| l.block);
         if (lost && moment.continued) || block != 1 {
             // An image of the last frame that is new now (an albedo, say) has nothing to compare with.
@@ -177,14 +186,22 @@ impl Denoiser {
         }
         self.history = true;
         let Moment { camera, index, .. } = moment;
-        self.last = Some(LastFrame { plan, uniform, camera, source: Source::Host, index });
+        self.last = Some(LastFrame {
+            plan,
+            uniform,
+            camera,
+            source: Source::Host,
+            index,
+            #[cfg(feature = "path-tracer")]
+            tracer: self.settings.tracer.clone(),
+        });
         Ok(())
     }
 
     /// Forgets a frame that was begun and not denoised: its images are the next frame's to write.
     pub(crate) fn abandon(&mut self) {
         if self.begun.take().is_some() {
-            self.parity ^= 1;
+            self.textures.abandon();
         }
     }
 }

@@ -2,8 +2,7 @@
 
 use super::{Lambda, Pairs, Shading, Surfaces};
 use crate::Error;
-use crate::gpu::textures::strata;
-use crate::plan::HostTraits;
+use crate::plan::{Changes, Grid, HostTraits};
 use crate::settings::{Gradient, Mode, Settings};
 use wgpu::TextureFormat::{self, *};
 use wgpu::{TextureDimension, TextureUsages, TextureView};
@@ -116,7 +115,7 @@ pub(super) fn shading(
     traits: &mut HostTraits,
     given: &Shading<'_>,
     size: [u32; 2],
-    settings: &Settings,
+    (settings, changes): (&Settings, Changes),
 ) -> Result<(), Error> {
     read("radiance", given.radiance, size, &[RADIANCE], RADIANCE_WORDS)?;
     if let Some(view) = given.albedo {
@@ -133,6 +132,8 @@ pub(super) fn shading(
     }
     let missing = |view, setting, remedy| Error::ViewMissing { view, setting, remedy };
     match settings.filter.gradient {
+        // Nothing is made of them.
+        Gradient::Pairs if !changes.scene => Ok(()),
         Gradient::Pairs => {
             let none = missing("pairs", "Gradient::Pairs", "fill `Shading::pairs`, or choose Gradient::Reshade or Off");
             pairs(traits, given.pairs.as_ref().ok_or(none)?, size)
@@ -149,7 +150,7 @@ fn pairs(traits: &mut HostTraits, given: &Pairs<'_>, size: [u32; 2]) -> Result<(
     let texture = given.current.texture();
     let found = [texture.width(), texture.height()];
     // A 1×1 image has one pixel and one stratum: it does not matter which is meant.
-    traits.stratum_pairs = found == strata(size) && !given.in_place;
+    traits.stratum_pairs = found == Grid::Strata.extent(size) && !given.in_place;
     traits.pairs_in_place = given.in_place;
     let size = if traits.stratum_pairs { found } else { size };
     let current = read("pairs.current", given.current, size, &[PAIR, LUMINANCE_PAIR], PAIR_WORDS)?;

@@ -5,6 +5,7 @@ use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
 const FEATURES: &[Feature] = &[
     Feature::Objects,
+    Feature::Still,
     Feature::Gradient,
     Feature::AcrossSurfaces,
     Feature::InPlace,
@@ -16,34 +17,36 @@ const FEATURES: &[Feature] = &[
     Feature::VarianceOfMean,
 ];
 
+/// What finds the surface in the last frame.
+const REPROJECTION: [&str; 4] = ["guide_previous", "motion", "object", "object_previous"];
+
 /// `gradient` is where the filtered gradient is, if there is one.
 pub(crate) fn step(features: Features, gradient: Option<Image>) -> Step {
-    let features = features.and(Features::of(FEATURES));
-    let gradient = gradient.unwrap_or(Image::Gradient(0));
-    Step {
-        pass: Pass::Temporal,
-        features,
-        grid: Grid::Pixels,
-        iteration: 0,
-        bindings: bindings(
-            features,
-            [
-                ("guide", Slot::Now(Image::Guide), &[]),
-                ("guide_previous", Slot::Before(Image::Guide), &[]),
-                ("motion", Slot::Now(Image::Motion), &[]),
-                ("object", Slot::Now(Image::Object), &[Feature::Objects]),
-                ("object_previous", Slot::Before(Image::Object), &[Feature::Objects]),
-                ("radiance", Slot::Now(Image::Radiance), &[]),
-                ("history_previous", Slot::Before(Image::History), &[]),
-                ("feedback_previous", Slot::Before(Image::Feedback), &[Feature::Feedback]),
-                ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),
-                ("samples", Slot::Now(Image::Samples), &[Feature::Gradient]),
-                ("gradient", Slot::Now(gradient), &[Feature::Gradient]),
-                ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
-                ("external_lambda", Slot::Host, &[Feature::ExternalLambda]),
-                ("history_out", Slot::Now(Image::History), &[]),
-                ("color_out", Slot::Now(Image::Color(0)), &[]),
-            ],
-        ),
+    let mut features = features.and(Features::of(FEATURES));
+    if features.has(Feature::Still) {
+        features = features.without(Feature::Objects);
     }
+    let gradient = gradient.unwrap_or(Image::Gradient(0));
+    let mut bindings = bindings(
+        features,
+        [
+            ("guide", Slot::Now(Image::Guide), &[]),
+            ("guide_previous", Slot::Before(Image::Guide), &[]),
+            ("motion", Slot::Now(Image::Motion), &[]),
+            ("object", Slot::Now(Image::Object), &[Feature::Objects]),
+            ("object_previous", Slot::Before(Image::Object), &[Feature::Objects]),
+            ("radiance", Slot::Now(Image::Radiance), &[]),
+            ("history_previous", Slot::Before(Image::History), &[]),
+            ("feedback_previous", Slot::Before(Image::Feedback), &[Feature::Feedback]),
+            ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),
+            ("samples", Slot::Now(Image::Samples), &[Feature::Gradient]),
+            ("gradient", Slot::Now(gradient), &[Feature::Gradient]),
+            ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
+            ("external_lambda", Slot::Host, &[Feature::ExternalLambda]),
+            ("history_out", Slot::Now(Image::History), &[]),
+            ("color_out", Slot::Now(Image::Color(0)), &[]),
+        ],
+    );
+    bindings.retain(|(name, _)| !(features.has(Feature::Still) && REPROJECTION.contains(name)));
+    Step { pass: Pass::Temporal, features, grid: Grid::Pixels, iteration: 0, bindings }
 }

@@ -6,7 +6,14 @@ use crate::{Error, Mode, View};
 use wgpu::TextureFormat;
 
 /// The step that shows a view of what a plan's steps have left, in a target of this format.
-pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -> Result<Step, Error> {
+/// `holds` tells which of their images are still there.
+pub(crate) fn step(
+    view: View,
+    plan: &Plan,
+    mode: Mode,
+    target: TextureFormat,
+    holds: impl Fn(Image) -> bool,
+) -> Result<Step, Error> {
     let missing = |reason| Err(Error::NoView { view, reason });
     let has = |image| plan.images().iter().any(|(i, _)| *i == image);
     let color = match (view, plan.color) {
@@ -16,7 +23,7 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
     };
     let gradient = match (view, plan.gradient) {
         (View::Gradient, Some(image)) => Slot::Now(image),
-        (View::Gradient, None) => return missing("the gradient is off"),
+        (View::Gradient, None) if !plan.features.has(Feature::Unchanged) => return missing("the gradient is off"),
         _ => Slot::Target,
     };
     if matches!(view, View::Lambda | View::Alpha | View::HistoryLength | View::Variance) && mode != Mode::Denoise {
@@ -38,6 +45,9 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         return missing("objects are not told apart");
     }
     let paired = matches!(view, View::PairNow | View::PairBefore);
+    if paired && plan.features.has(Feature::Unchanged) {
+        return missing("nothing changed, so that no path was repeated");
+    }
     let traced = plan.features.has(Feature::Reshade) || plan.features.has(Feature::Pairs);
     if paired && !traced {
         return missing("the gradient does not come from paths");
@@ -61,6 +71,9 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
     }
     if !paired {
         features = features.without(Feature::Pairs);
+    }
+    if view == View::Gradient && plan.features.has(Feature::Unchanged) {
+        features = features.with(Feature::Unchanged);
     }
     if view != View::Alpha {
         features = features.without(Feature::BlendByLambda);
@@ -96,6 +109,7 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         View::TriangleId => &["visibility"],
         View::Motion => &["motion"],
         View::MotionError => &["guide", "motion"],
+        View::Gradient if features.has(Feature::Unchanged) => &[],
         View::Gradient => &["gradient"],
         View::Lambda | View::Alpha | View::HistoryLength | View::Variance => &["history"],
         View::NonFinite => &["color"],
@@ -103,6 +117,10 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         View::Object => &["object"],
         View::PairNow | View::PairBefore => &["samples", "radiance", "albedo"],
     };
-    let bindings = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name)).collect();
+    let used = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name));
+    let bindings: Vec<_> = used.collect();
+    if bindings.iter().any(|(_, slot)| matches!(slot, Slot::Now(image) if !holds(*image))) {
+        return missing("its texture was given to another image: set DenoiserDescriptor::views");
+    }
     Ok(Step { pass: Pass::View, features, grid: Grid::Pixels, iteration: view as u32, bindings })
 }

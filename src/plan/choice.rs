@@ -1,101 +1,145 @@
-//! Which features a frame's settings and traits ask for.
+//! Which features a frame asks for, each with its reason.
 
 #[cfg(feature = "path-tracer")]
 use super::Traits;
-use super::{Feature, Features, HostTraits};
+use super::{Changes, Decision, Feature, HostTraits};
 use crate::settings::{self, Blend, FilterSettings, Kernel, Mode, Settings, Stops, Variance};
+use Feature::*;
+
+/// A feature, whether it is in, and why it would be in or out.
+type Row = (Feature, bool, [&'static str; 2]);
 
 #[cfg(feature = "path-tracer")]
-pub(super) fn traced(traits: &Traits, settings: &Settings) -> Features {
+const FEW_TRIANGLES: [&str; 2] = ["so few, on a processor, that testing each is faster", "a tree is faster"];
+const OBJECTS: [&str; 2] = ["objects are told apart in time", "all is taken for one object"];
+const UNFILTERED: [&str; 2] = ["the mode shows the samples", "the mode filters"];
+const ACCUMULATE: [&str; 2] = ["the mode is the mean over frames", "the mode shows single frames"];
+
+/// Of a path-traced frame.
+#[cfg(feature = "path-tracer")]
+pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> Vec<Decision> {
     use crate::settings::Sampling;
-    use Feature::*;
     let sampling = settings.tracer.sampling;
     let lights = traits.emitters || traits.punctual_lights || traits.environment;
-    let scene = [
-        (Instanced, traits.instanced),
-        (Objects, traits.instanced),
-        (Textures, traits.textures),
-        (ShadingNormals, traits.shading_normals),
-        (Specular, traits.specular),
-        (AlphaMask, traits.alpha_mask),
-        (FewTriangles, traits.few_triangles),
-        (Lights, lights),
-        (Emitters, traits.emitters),
-        (PunctualLights, traits.punctual_lights),
-        (EnvironmentLight, traits.environment),
-        (Albedo, true),
-        (DirectEmission, traits.emitters || traits.environment || traits.unlit),
-        (LightSamplesOnly, sampling == Sampling::Lights),
-        (ScatteredRaysOnly, sampling == Sampling::Scattered),
-        (Unfiltered, settings.mode != Mode::Denoise),
-        (Accumulate, settings.mode == Mode::Reference),
+    let glows = traits.emitters || traits.environment || traits.unlit;
+    let rows = [
+        (Instanced, traits.instanced, ["a mesh moves or repeats", "nothing moves or repeats: one tree, no placements"]),
+        (Objects, traits.instanced, OBJECTS),
+        (
+            Textures,
+            traits.textures,
+            ["a material has an image", "no material has an image: no coordinates, no look-up"],
+        ),
+        (ShadingNormals, traits.shading_normals, ["a mesh has normals", "no mesh has: cross products of the edges do"]),
+        (Specular, traits.specular, ["a material is not purely Lambertian", "all are Lambertian: no GGX lobe"]),
+        (AlphaMask, traits.alpha_mask, ["a material has holes", "no material has holes: any hit will do for a shadow"]),
+        (FewTriangles, traits.few_triangles, FEW_TRIANGLES),
+        (Lights, lights, ["there is light to sample", "nothing emits: no light is sampled"]),
+        (Emitters, traits.emitters, ["triangles emit", "no triangle emits"]),
+        (PunctualLights, traits.punctual_lights, ["there are lights without area", "there is no light without area"]),
+        (EnvironmentLight, traits.environment, ["the environment is not black", "the environment is black"]),
+        (Albedo, true, ["light is filtered without the surfaces' textures", ""]),
+        (DirectEmission, glows, ["some surface or the sky is seen to emit", "nothing that is seen emits"]),
+        (LightSamplesOnly, sampling == Sampling::Lights, ["the settings say so", "scattered rays find light too"]),
+        (ScatteredRaysOnly, sampling == Sampling::Scattered, ["the settings say so", "lights are sampled too"]),
+        (Unfiltered, settings.mode != Mode::Denoise, UNFILTERED),
+        (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&scene, settings)
+    with_filter(&rows, false, settings, changes)
 }
 
-pub(super) fn hosted(traits: &HostTraits, settings: &Settings) -> Features {
-    use Feature::*;
+/// Of a frame of the host's renderer.
+pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes) -> Vec<Decision> {
     let denoise = settings.mode == Mode::Denoise;
     let pairs = denoise && settings.filter.gradient == settings::Gradient::Pairs;
     let lambda = denoise && settings.filter.gradient == settings::Gradient::Lambda;
-    let host = [
-        (OctahedralNormals, traits.octahedral_normals),
-        (MappedNormals, traits.mapped_normals),
-        (PackedNormals, traits.packed_normals),
-        (PreviousDepth, traits.previous_depth),
-        (Objects, traits.instances),
-        (FloatObjects, traits.instances && traits.float_instances),
-        (Albedo, traits.albedo),
-        (DirectEmission, traits.emission),
-        (Modulated, !traits.demodulated && (traits.albedo || traits.emission)),
-        (Background, denoise),
-        (LuminancePairs, pairs && traits.luminance_pairs),
-        (StratumPairs, pairs && traits.stratum_pairs),
-        (InPlace, pairs && traits.pairs_in_place),
-        (Confidence, lambda && traits.confidence),
-        (Diagnostics, traits.diagnostics),
-        (Unfiltered, !denoise),
-        (Accumulate, settings.mode == Mode::Reference),
+    let modulated = !traits.demodulated && (traits.albedo || traits.emission);
+    let rows = [
+        (
+            OctahedralNormals,
+            traits.octahedral_normals,
+            ["normals have two components", "normals have three components"],
+        ),
+        (MappedNormals, traits.mapped_normals, ["normals are mapped to 0…1", "normals are signed"]),
+        (PackedNormals, traits.packed_normals, ["normals are one word", "normals have channels"]),
+        (PreviousDepth, traits.previous_depth, ["previous depths are given", "no previous depth is given"]),
+        (Objects, traits.instances, OBJECTS),
+        (FloatObjects, traits.instances && traits.float_instances, ["instances are floats", "no instance is a float"]),
+        (Albedo, traits.albedo, ["an albedo is given", "no albedo is given: textures are filtered with the light"]),
+        (DirectEmission, traits.emission, ["emission is given", "no emission is given"]),
+        (Modulated, modulated, ["radiance comes with albedo and emission", "radiance is the light alone"]),
+        (Background, denoise, ["what misses is shown as it is", "all is shown as it is"]),
+        (LuminancePairs, pairs && traits.luminance_pairs, ["pairs are luminances", "no pair is a luminance"]),
+        (StratumPairs, pairs && traits.stratum_pairs, ["there is one pair per stratum", "pairs stand in their pixels"]),
+        (Confidence, lambda && traits.confidence, ["λ is given as 1 − λ", "no confidence is given"]),
+        (Diagnostics, traits.diagnostics, ["cleaned input is counted", "nobody asked for counts"]),
+        (Unfiltered, !denoise, UNFILTERED),
+        (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&host, settings)
+    with_filter(&rows, pairs && traits.pairs_in_place, settings, changes)
 }
 
-/// What is on in a list, and what the filter's settings ask for where there is a filter.
-fn with_filter(list: &[(Feature, bool)], settings: &Settings) -> Features {
-    let chosen = list.iter().filter(|(_, on)| *on).map(|(f, _)| *f);
-    match settings.mode {
-        Mode::Denoise => chosen.chain(filter_features(&settings.filter).iter()).collect(),
-        Mode::Noisy | Mode::Reference => chosen.collect(),
-    }
+/// The rows, and what the filter asks for where there is one.
+fn with_filter(rows: &[Row], pairs_in_place: bool, settings: &Settings, changes: Changes) -> Vec<Decision> {
+    let filter = match settings.mode {
+        Mode::Denoise => filter(&settings.filter, pairs_in_place, changes),
+        Mode::Noisy | Mode::Reference => Vec::new(),
+    };
+    rows.iter().chain(&filter).map(|&(feature, on, reasons)| Decision::feature(feature, on, reasons)).collect()
 }
 
-fn filter_features(filter: &FilterSettings) -> Features {
-    use Feature::*;
+fn filter(filter: &FilterSettings, pairs_in_place: bool, changes: Changes) -> Vec<Row> {
+    use settings::Gradient as Source;
     let source = filter.gradient;
-    let reshade = source == settings::Gradient::Reshade;
-    let pairs = source == settings::Gradient::Pairs;
-    let strata = reshade || pairs || source == settings::Gradient::BlinnPhong;
+    let strata = matches!(source, Source::Reshade | Source::Pairs | Source::BlinnPhong);
+    // In an unchanged scene a repeated path finds what it found: δ is 0, and nothing has to be measured.
+    let gradient = strata && changes.scene;
+    let reshade = gradient && source == Source::Reshade;
+    let pairs = gradient && source == Source::Pairs;
+    let why_not = if strata && !changes.scene {
+        "nothing changed in the scene: the gradient is 0"
+    } else {
+        "the settings ask for none"
+    };
     let spatial = filter.iterations > 0;
-    [
-        (Gradient, strata),
-        (Reshade, reshade),
-        (InPlace, reshade),
-        (BlinnPhong, source == settings::Gradient::BlinnPhong),
-        (Pairs, pairs),
-        (SignedGradient, strata && filter.gradient_signed),
-        (AcrossSurfaces, strata && filter.gradient_across_surfaces),
-        (ExternalLambda, source == settings::Gradient::Lambda),
+    vec![
+        (
+            Still,
+            changes == Changes::NONE,
+            ["nothing changed: no reprojection, and α = 1/n has no floor", "something may move"],
+        ),
+        (Unchanged, strata && !changes.scene, [why_not, "the scene may have changed"]),
+        (Gradient, gradient, ["the scene may have changed", why_not]),
+        (Reshade, reshade, ["the gradient repeats paths", why_not]),
+        (InPlace, reshade || pairs && pairs_in_place, ["repeated paths take a pixel's own sample's place", why_not]),
+        (BlinnPhong, gradient && source == Source::BlinnPhong, ["the gradient is that of analytic shading", why_not]),
+        (Pairs, pairs, ["the gradient comes from the host's pairs", why_not]),
+        (SignedGradient, gradient && filter.gradient_signed, ["differences may cancel", "differences never cancel"]),
+        (AcrossSurfaces, gradient && filter.gradient_across_surfaces, ["λ heeds what is around", why_not]),
+        (ExternalLambda, source == Source::Lambda, ["λ is the host's", "the host gives no λ"]),
         // An analytic pair is blind to what blocks a light: its ratio would rescale shadows too.
-        (HistoryRatio, (reshade || pairs) && filter.history_ratio),
-        (BlendByLambda, filter.blend == Blend::Lambda),
-        (Feedback, spatial && filter.feedback),
-        (VarianceOfMean, filter.variance == Variance::OfMean),
-        (ClassicStops, filter.stops == Stops::Classic),
-        (FullKernel, filter.kernel == Kernel::Full),
-        (LocalLinearFit, filter.local_linear_fit),
+        (
+            HistoryRatio,
+            (reshade || pairs) && filter.history_ratio,
+            ["the history is rescaled by what paths show", why_not],
+        ),
+        (BlendByLambda, filter.blend == Blend::Lambda, ["α' = (1 − λ)·α + λ is set", "α' = 1/n is set"]),
+        (
+            Feedback,
+            spatial && filter.feedback,
+            ["the first iteration feeds the history", "the history stays unfiltered"],
+        ),
+        (
+            VarianceOfMean,
+            filter.variance == Variance::OfMean,
+            ["the mean's variance is set", "a sample's variance is set"],
+        ),
+        (
+            ClassicStops,
+            filter.stops == Stops::Classic,
+            ["published edge stops are set", "noise-subtracted stops are set"],
+        ),
+        (FullKernel, filter.kernel == Kernel::Full, ["25 taps are set", "13 taps are set"]),
+        (LocalLinearFit, filter.local_linear_fit, ["a plane is fitted to the taps", "taps are averaged"]),
     ]
-    .into_iter()
-    .filter(|(_, on)| *on)
-    .map(|(f, _)| f)
-    .collect()
 }

@@ -48,6 +48,10 @@ features! {
     ScatteredRaysOnly,
     /// Objects are told apart when reprojecting.
     Objects,
+    /// Nothing changed since the last frame: the history needs no reprojection.
+    Still,
+    /// Nothing changed in the scene: the gradient is 0.
+    Unchanged,
     /// The history is shortened by a gradient.
     Gradient,
     /// The gradient comes from repeated paths.

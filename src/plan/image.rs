@@ -49,7 +49,7 @@ pub enum Image {
 }
 
 /// How many texels an image has, or invocations a pass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Grid {
     /// One per pixel.
     Pixels,
@@ -94,5 +94,46 @@ impl Image {
     /// Texels side by side for each pixel or stratum.
     pub fn texels(self) -> u32 {
         if self == Self::Repeats { 2 } else { 1 }
+    }
+
+    /// Its name, with the number of those that take turns.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Visibility => "visibility",
+            Self::Guide => "guide",
+            Self::Motion => "motion",
+            Self::Object => "object",
+            Self::Radiance => "radiance",
+            Self::Albedo => "albedo",
+            Self::Emission => "emission",
+            Self::History => "history",
+            Self::Feedback => "feedback",
+            Self::Color(0) => "color 0",
+            Self::Color(_) => "color 1",
+            Self::Samples => "samples",
+            Self::Repeats => "repeats",
+            Self::PairNow => "pair now",
+            Self::PairBefore => "pair before",
+            Self::PairsNow(0) => "pairs now 0",
+            Self::PairsNow(_) => "pairs now 1",
+            Self::PairsBefore(0) => "pairs before 0",
+            Self::PairsBefore(_) => "pairs before 1",
+            Self::PairsProduct(0) => "pairs product 0",
+            Self::PairsProduct(_) => "pairs product 1",
+            Self::Gradient(0) => "gradient 0",
+            Self::Gradient(_) => "gradient 1",
+            Self::Ratio => "ratio",
+            Self::Sum => "sum",
+        }
+    }
+}
+
+impl Grid {
+    /// Pixels or strata in each direction, for a picture of this size.
+    pub fn extent(self, size: [u32; 2]) -> [u32; 2] {
+        match self {
+            Self::Pixels => size,
+            Self::Strata => size.map(|side| side.div_ceil(3)),
+        }
     }
 }

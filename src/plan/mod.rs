@@ -1,19 +1,28 @@
-//! What to run and why, as plain data: a pure function of the settings and of what a scene, or a host's views, have.
+//! What to run and why, as plain data: a pure function of the settings, of what a scene, or a host's views, have, and of what
+//! changed since the last frame.
 //!
 //! The plan lists the passes in order, each with the features that are compiled into its shader and the images that it reads
-//! and writes. [`Denoiser`](crate::Denoiser) only carries it out.
+//! and writes, and a reason for whatever is in or left out. [`Denoiser`](crate::Denoiser) only carries it out. Printed
+//! (`{plan}`) it is a table; [`Plan::graph`] draws it.
 
+mod changes;
 mod choice;
+mod decision;
+mod display;
 mod feature;
 mod image;
+mod memory;
 mod traits;
 
+pub use changes::Changes;
+pub use decision::{Decision, Subject};
 pub use feature::{Feature, Features};
 pub use image::{Grid, Image};
+pub(crate) use memory::{Kind, Memory};
 pub use traits::{HostTraits, Traits, Traversal};
 
 use crate::passes::{self, Pass};
-use crate::settings::{FilterSettings, Mode, Settings};
+use crate::settings::{Mode, Settings};
 use std::collections::BTreeSet;
 use wgpu::TextureFormat;
 
@@ -71,6 +80,8 @@ pub struct Plan {
     pub steps: Vec<Step>,
     /// Everything that was decided to be in.
     pub features: Features,
+    /// Everything that was decided, and why.
+    pub decisions: Vec<Decision>,
     /// Where the filtered colour ends up, if anything is filtered.
     pub color: Option<Image>,
     /// Where the gradient ends up, if there is one.
@@ -80,28 +91,24 @@ pub struct Plan {
 impl Plan {
     /// The passes that a path-traced frame needs.
     #[cfg(feature = "path-tracer")]
-    pub fn path_traced(traits: &Traits, settings: &Settings, target: TextureFormat) -> Self {
-        let features = choice::traced(traits, settings);
-        let features = if target == TextureFormat::Rgba16Float { features.with(Feature::TargetF16) } else { features };
-        let mut plan = Self { steps: vec![passes::visibility::step(features)], features, color: None, gradient: None };
-        let denoise = settings.mode == Mode::Denoise;
-        if denoise && features.has(Feature::Gradient) {
+    pub fn path_traced(traits: &Traits, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
+        let mut plan = Self::of(choice::traced(traits, settings, changes), target);
+        let features = plan.features;
+        plan.steps.push(passes::visibility::step(features));
+        if features.has(Feature::Gradient) {
             plan.steps.push(passes::gradient_sample::step(features));
         }
         plan.steps.push(passes::trace::step(features));
-        if denoise {
-            plan.filter(&settings.filter);
-        }
+        plan.filter(settings);
         plan.steps.push(passes::resolve::step(features, plan.color));
         plan
     }
 
     /// The passes that a frame of the host's own renderer needs.
-    pub fn hosted(traits: &HostTraits, settings: &Settings, target: TextureFormat) -> Self {
-        let features = choice::hosted(traits, settings);
-        let features = if target == TextureFormat::Rgba16Float { features.with(Feature::TargetF16) } else { features };
-        let mut plan =
-            Self { steps: vec![passes::ingest_surface::step(features)], features, color: None, gradient: None };
+    pub fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
+        let mut plan = Self::of(choice::hosted(traits, settings, changes), target);
+        let features = plan.features;
+        plan.steps.push(passes::ingest_surface::step(features));
         if features.has(Feature::Reshade) {
             plan.steps.push(passes::gradient_sample::step(features));
             plan.steps.push(passes::reshade::step(features));
@@ -110,11 +117,26 @@ impl Plan {
         if features.has(Feature::Pairs) {
             plan.steps.push(passes::ingest_pairs::step(features));
         }
-        if settings.mode == Mode::Denoise {
-            plan.filter(&settings.filter);
-        }
+        plan.filter(settings);
         plan.steps.push(passes::resolve::step(features, plan.color));
         plan
+    }
+
+    /// No steps yet, for these decisions.
+    fn of(mut decisions: Vec<Decision>, target: TextureFormat) -> Self {
+        let narrow = target == TextureFormat::Rgba16Float;
+        decisions.push(Decision::feature(Feature::TargetF16, narrow, ["the target is 16-bit", "the target is 32-bit"]));
+        let features = decisions.iter().filter(|d| d.included).filter_map(|d| match d.subject {
+            Subject::Feature(feature) => Some(feature),
+            Subject::Pass(_) => None,
+        });
+        Self { steps: Vec::new(), features: features.collect(), decisions, color: None, gradient: None }
+    }
+
+    /// Whether the mean goes on over all frames there were, however many: nothing changed, and α is adaptive.
+    pub(crate) fn converges(&self) -> bool {
+        let has = |feature| self.features.has(feature);
+        has(Feature::Still) && has(Feature::Unchanged) && !has(Feature::BlendByLambda)
     }
 
     /// How many of the steps need no radiance: those that [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) records.
@@ -122,8 +144,12 @@ impl Plan {
         self.steps.iter().take_while(|step| step.pass != Pass::IngestRadiance).count()
     }
 
-    /// The passes from noisy radiance to filtered colour.
-    fn filter(&mut self, filter: &FilterSettings) {
+    /// The passes from noisy radiance to filtered colour, if the mode filters.
+    fn filter(&mut self, settings: &Settings) {
+        if settings.mode != Mode::Denoise {
+            return;
+        }
+        let Settings { filter, .. } = settings;
         let features = self.features;
         if features.has(Feature::Gradient) {
             if features.has(Feature::HistoryRatio) {
@@ -137,7 +163,12 @@ impl Plan {
             self.gradient = Some(Image::Gradient((iterations % 2) as u8));
         }
         self.steps.push(passes::temporal::step(features, self.gradient));
-        if filter.iterations > 0 {
+        let spatial = filter.iterations > 0;
+        let why = ["its iterations filter in space", "the settings ask for no spatial iteration"];
+        let guided = ["it guides the spatial iterations", "there is no spatial iteration to guide"];
+        self.decisions.push(Decision::pass(Pass::Variance, spatial, guided));
+        self.decisions.push(Decision::pass(Pass::Atrous, spatial, why));
+        if spatial {
             self.steps.push(passes::variance::step(features));
         }
         self.steps.extend((0..filter.iterations).map(|i| passes::atrous::step(features, i)));
@@ -145,8 +176,12 @@ impl Plan {
     }
 
     /// The same plan for an adapter that is the CPU.
-    pub(crate) fn on_cpu(self) -> Self {
-        Self { steps: self.steps.into_iter().map(Step::on_cpu).collect(), ..self }
+    pub(crate) fn on_cpu(mut self) -> Self {
+        self.steps = self.steps.into_iter().map(Step::on_cpu).collect();
+        let reads = self.steps.iter().any(|step| step.features.has(Feature::StorageReads));
+        let why = ["the adapter is the CPU: cheaper there than texture fetches", ""];
+        self.decisions.extend(reads.then(|| Decision::feature(Feature::StorageReads, true, why)));
+        self
     }
 
     /// The images that the steps use, each once, and whether the previous frame's is used too.

@@ -25,6 +25,23 @@ pub struct Traits {
     pub few_triangles: bool,
 }
 
+impl Traits {
+    /// All that the materials and lights of a scene with this layout in memory can have.
+    #[must_use]
+    pub fn everything(self) -> Self {
+        Self {
+            textures: true,
+            specular: true,
+            // Where each triangle is tested, none may have holes.
+            alpha_mask: !self.few_triangles,
+            emitters: true,
+            punctual_lights: true,
+            unlit: true,
+            ..self
+        }
+    }
+}
+
 /// What a host's views have. Everything that is absent is left out of the shaders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct HostTraits {

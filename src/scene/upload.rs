@@ -356,6 +356,11 @@ impl GpuScene {
         [self.id, self.revision]
     }
 
+    /// Whether something is elsewhere than in the last frame.
+    pub(crate) fn moved(&self) -> bool {
+        self.moved
+    }
+
     /// How rays find their triangles.
     pub(crate) fn traversal(&self) -> Traversal {
         match self.few {

@@ -4,7 +4,6 @@ use super::gpu::gpu;
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::kernel::Kernel;
-use crate::gpu::textures::strata;
 use crate::plan::{Feature, Grid, Slot, Step};
 use crate::{Camera, Settings};
 use std::collections::BTreeMap;
@@ -35,13 +34,6 @@ impl Bench {
         let camera =
             Camera { eye: [0.2, 0.3, 4.0], target: [0.1, 0.0, 0.0], jitter: [0.2, -0.3], ..Default::default() };
         Self { size, camera, previous: camera, index: 5, continued: true, settings, lambda_block: 1 }
-    }
-
-    pub fn grid(&self, grid: Grid) -> [u32; 2] {
-        match grid {
-            Grid::Pixels => self.size,
-            Grid::Strata => strata(self.size),
-        }
     }
 
     /// Runs a step on the images of its bindings; what is not given is zero. Returns the images that it wrote, which are the
@@ -75,7 +67,7 @@ impl Bench {
             _ => views.get(name).map(BindingResource::TextureView),
         };
         let groups = kernel.bind(&gpu.device, resource).unwrap_or_else(|name| panic!("nothing for `{name}`"));
-        let [width, height] = self.grid(step.grid);
+        let [width, height] = step.grid.extent(self.size);
         gpu.submit(|encoder| {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&kernel.pipeline);
@@ -94,6 +86,7 @@ impl Bench {
             index: self.index,
             continued: self.continued,
             lambda_block: self.lambda_block,
+            converges: false,
         };
         FrameUniform::new(self.size, &moment, &self.settings)
     }
@@ -102,7 +95,7 @@ impl Bench {
         let has = |feature| step.features.has(feature);
         let (format, [width, height]) = match slot {
             Slot::Now(image) | Slot::Before(image) => {
-                let [width, height] = self.grid(image.grid());
+                let [width, height] = image.grid().extent(self.size);
                 (image.format(), [image.texels() * width, height])
             }
             Slot::Target if has(Feature::TargetF16) => (TextureFormat::Rgba16Float, self.size),
@@ -119,7 +112,10 @@ impl Bench {
                 "current" | "previous" => {
                     let luminance = has(Feature::LuminancePairs);
                     let grid = if has(Feature::StratumPairs) { Grid::Strata } else { Grid::Pixels };
-                    (if luminance { TextureFormat::R32Float } else { TextureFormat::Rgba32Float }, self.grid(grid))
+                    (
+                        if luminance { TextureFormat::R32Float } else { TextureFormat::Rgba32Float },
+                        grid.extent(self.size),
+                    )
                 }
                 _ => (TextureFormat::Rgba32Float, self.size),
             },

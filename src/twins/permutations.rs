@@ -4,7 +4,7 @@
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::passes::{self, Pass};
-use crate::plan::{Feature, HostTraits, Plan, Step, Traits, Traversal};
+use crate::plan::{Changes, Feature, HostTraits, Plan, Step, Traits, Traversal};
 use crate::scene::{GpuScene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
@@ -57,6 +57,7 @@ const GRADIENTS: [Gradient; 3] = [Gradient::Reshade, Gradient::BlinnPhong, Gradi
 const HOST_GRADIENTS: [Gradient; 4] = [Gradient::Reshade, Gradient::Pairs, Gradient::Lambda, Gradient::Off];
 const SAMPLINGS: [Sampling; 3] = [Sampling::Both, Sampling::Lights, Sampling::Scattered];
 const MODES: [Mode; 3] = [Mode::Denoise, Mode::Noisy, Mode::Reference];
+const CHANGES: [Changes; 3] = [Changes::ANY, Changes { camera: true, scene: false }, Changes::NONE];
 const TARGETS: [TextureFormat; 2] = [TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
 
 /// All combinations of what a host may hand in.
@@ -121,7 +122,7 @@ fn plans() -> Vec<(Plan, Mode)> {
                 filter: FilterSettings { gradient, ..Default::default() },
                 tracer: TracerSettings { sampling, ..Default::default() },
             };
-            let plan = Plan::path_traced(&traits, &settings, target);
+            let plan = Plan::path_traced(&traits, &settings, Changes::ANY, target);
             if (sampling, gradient, mode) == (Sampling::Both, Gradient::Reshade, Mode::Denoise) {
                 plans.push((plan.clone().on_cpu(), mode));
             }
@@ -131,9 +132,11 @@ fn plans() -> Vec<(Plan, Mode)> {
     for (instanced, filter) in product(&[false, true], &filters(&GRADIENTS)) {
         let settings = Settings { filter, ..Settings::adaptive() };
         let traits = Traits { instanced, ..Default::default() };
-        let plan = Plan::path_traced(&traits, &settings, TextureFormat::Rgba32Float);
-        plans.push((plan.clone().on_cpu(), Mode::Denoise));
-        plans.push((plan, Mode::Denoise));
+        for changes in CHANGES {
+            let plan = Plan::path_traced(&traits, &settings, changes, TextureFormat::Rgba32Float);
+            plans.push((plan.clone().on_cpu(), Mode::Denoise));
+            plans.push((plan, Mode::Denoise));
+        }
     }
     plans
 }
@@ -144,19 +147,21 @@ fn host_plans() -> Vec<(Plan, Mode)> {
     let mut plans = Vec::new();
     for (traits, gradient) in product(&host_traits(), &HOST_GRADIENTS) {
         let settings = Settings { filter: FilterSettings { gradient, ..Default::default() }, ..Settings::adaptive() };
-        plans.push((Plan::hosted(&traits, &settings, TextureFormat::Rgba32Float), Mode::Denoise));
+        for changes in CHANGES {
+            plans.push((Plan::hosted(&traits, &settings, changes, TextureFormat::Rgba32Float), Mode::Denoise));
+        }
     }
     for ((albedo, emission), (mode, target)) in
         product(&product(&[false, true], &[false, true]), &product(&MODES, &TARGETS))
     {
         let traits = HostTraits { albedo, emission, ..Default::default() };
         let settings = Settings { mode, ..Settings::adaptive() };
-        plans.push((Plan::hosted(&traits, &settings, target), mode));
+        plans.push((Plan::hosted(&traits, &settings, Changes::ANY, target), mode));
     }
     for (instances, (marked, filter)) in product(&[false, true], &product(&[false, true], &filters(&HOST_GRADIENTS))) {
         let traits = HostTraits { instances, pairs_in_place: marked, confidence: marked, ..Default::default() };
         let settings = Settings { filter, ..Settings::adaptive() };
-        plans.push((Plan::hosted(&traits, &settings, TextureFormat::Rgba32Float), Mode::Denoise));
+        plans.push((Plan::hosted(&traits, &settings, Changes::ANY, TextureFormat::Rgba32Float), Mode::Denoise));
     }
     plans
 }
@@ -176,7 +181,7 @@ fn steps() -> BTreeMap<Permutation, Step> {
     };
     for (plan, mode) in plans().into_iter().chain(host_plans()) {
         for (view, format) in product(&View::ALL, &formats) {
-            match passes::view::step(view, &plan, mode, format) {
+            match passes::view::step(view, &plan, mode, format, |_| true) {
                 Ok(step) => add(step),
                 Err(Error::NoView { .. }) => {}
                 Err(e) => panic!("{e}"),
@@ -226,7 +231,7 @@ fn every_size_of_stack_and_of_few_triangles_compiles() {
     let counts = [8, 16, 24, 32, 40, 48, 56, 64].map(|triangles| Traversal::Every { triangles });
     for traversal in stacks.into_iter().chain(counts) {
         let traits = Traits { few_triangles: matches!(traversal, Traversal::Every { .. }), ..scene.traits() };
-        let plan = Plan::path_traced(&traits, &Settings::adaptive(), TextureFormat::Rgba32Float);
+        let plan = Plan::path_traced(&traits, &Settings::adaptive(), Changes::ANY, TextureFormat::Rgba32Float);
         for step in plan.steps.iter().filter(|s| matches!(s.pass, Pass::Visibility | Pass::Trace)) {
             let permutation = Permutation { pass: step.pass, features: step.features, traversal, view: 0 };
             check(&device, &scene, &mut shaders, permutation, step);

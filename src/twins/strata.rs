@@ -4,7 +4,7 @@ use super::bench::{Bench, Texel};
 use super::codec::{depth, unpack_normal};
 use super::plane::{V, dot, sub};
 use super::random::Random;
-use crate::gpu::textures::strata;
+use crate::plan::Grid;
 
 /// Distance from the plane that is tolerated, in parts of the depth.
 const REACH: f64 = 0.02;
@@ -24,7 +24,7 @@ pub(super) struct Site {
 impl Bench {
     /// Records with a random sample pixel and a random previous one; some strata have none.
     pub fn records(&self, guide: &[[u32; 2]], random: &mut Random) -> Vec<Texel> {
-        let [columns, rows] = strata(self.size).map(|s| s as i32);
+        let [columns, rows] = Grid::Strata.extent(self.size).map(|s| s as i32);
         (0..columns * rows)
             .map(|i| {
                 let place = random.below(9) as i32;
@@ -42,12 +42,12 @@ impl Bench {
 
     /// Index of a stratum, if there is one.
     pub fn stratum(&self, x: i32, y: i32) -> Option<usize> {
-        let [columns, rows] = strata(self.size).map(|s| s as i32);
+        let [columns, rows] = Grid::Strata.extent(self.size).map(|s| s as i32);
         ((0..columns).contains(&x) && (0..rows).contains(&y)).then_some((y * columns + x) as usize)
     }
 
     pub fn strata(&self) -> Vec<(i32, i32)> {
-        let [columns, rows] = strata(self.size).map(|s| s as i32);
+        let [columns, rows] = Grid::Strata.extent(self.size).map(|s| s as i32);
         (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))).collect()
     }
 

@@ -193,11 +193,7 @@ impl Given {
             return;
         }
         let h = self.history[q];
-        let (color, mean) = if self.has(Feature::Feedback) {
-            (unpack_rgb([self.feedback[q][0], self.feedback[q][1]]), float(h[0]))
-        } else {
-            (unpack_rgb([h[0], h[1]]), luminance(unpack_rgb([h[0], h[1]])))
-        };
+        let (color, mean) = self.stored(q);
         notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(float(h[2]).sqrt());
         sum.color = add(sum.color, scale(color, w));
         sum.mean += w * mean;
@@ -207,8 +203,24 @@ impl Given {
         sum.weight += w;
     }
 
-    /// The history of a pixel: bilinear, or else from a Gaussian over 4×4.
+    /// Colour and mean luminance of a texel of the history.
+    fn stored(&self, q: usize) -> (V, f64) {
+        let h = self.history[q];
+        if self.has(Feature::Feedback) {
+            (unpack_rgb([self.feedback[q][0], self.feedback[q][1]]), float(h[0]))
+        } else {
+            (unpack_rgb([h[0], h[1]]), luminance(unpack_rgb([h[0], h[1]])))
+        }
+    }
+
+    /// The history of a pixel: bilinear, or else from a Gaussian over 4×4; its own, where nothing moves.
     fn before(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> Option<Before> {
+        if self.has(Feature::Still) {
+            let (color, mean) = self.stored(i);
+            let (variance, length) = (float(self.history[i][2]), length_of(self.history[i]));
+            notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(variance.sqrt());
+            return Some(Before { color, mean, variance, length, ..Default::default() });
+        }
         let m = self.motion[i];
         let [jx, jy] = self.bench.camera.jitter.map(f64::from);
         let point = [f64::from(x) + m[0], f64::from(y) + m[1]];
@@ -296,7 +308,8 @@ impl Given {
         let before = self.bench.continued.then(|| self.before(i, x, y, &mut notes)).flatten();
         (out.unsure, out.largest) = (notes.unsure, notes.largest);
         let Some(mut before) = before else { return out };
-        let mut kept = before.length;
+        // A still image's history may be longer than others are allowed to be.
+        let mut kept = before.length.min(f.max_history.into());
         if self.has(Feature::Gradient) {
             let (ratio, lambda) = self.change(i, x, y, &mut out.unsure);
             out.lambda = lambda;
@@ -431,6 +444,8 @@ fn every_reachable_kind_of_blending() {
     check(&[VarianceOfMean], &power(3.5));
     check(&[Objects, VarianceOfMean], &power(3.5));
     check(&[Feedback, VarianceOfMean], &power(3.5));
+    check(&[Still, VarianceOfMean], &power(3.5));
+    check(&[Still, Objects, Feedback], &power(3.5));
     check(&[Gradient, BlinnPhong, VarianceOfMean], &power(3.5));
     check(&[Gradient, InPlace, VarianceOfMean, Objects], &power(1.0));
     check(&[Gradient, AcrossSurfaces, InPlace, HistoryRatio, VarianceOfMean], &power(3.5));

@@ -3,11 +3,16 @@
 use super::gpu::{Gpu, gpu};
 use super::statistics::Rgb;
 use asvgf::scene::{GpuScene, Pose, Scene, builtin};
-use asvgf::{Camera, Denoiser, DenoiserDescriptor, Error, Frame, Settings, View, ViewOptions};
+use asvgf::{Camera, Denoiser, DenoiserDescriptor, Error, Frame, Settings, Specialize, View, ViewOptions};
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 /// Frames per second of animations.
 pub const RATE: f32 = 30.0;
+
+fn denoiser(gpu: &Gpu, size: [u32; 2], settings: Settings, specialize: Specialize) -> Denoiser {
+    let descriptor = DenoiserDescriptor { size, settings, views: true, specialize, ..Default::default() };
+    Denoiser::new(&gpu.device, &gpu.queue, &descriptor).unwrap()
+}
 
 /// One denoiser at work.
 pub struct Stage {
@@ -36,10 +41,15 @@ impl Stage {
     /// A stage on another device.
     pub fn on(gpu: &'static Gpu, scene: Scene, size: [u32; 2], settings: Settings) -> Self {
         let uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
-        let descriptor = DenoiserDescriptor { size, settings, ..Default::default() };
-        let denoiser = Denoiser::new(&gpu.device, &gpu.queue, &descriptor).unwrap();
+        let denoiser = denoiser(gpu, size, settings, Specialize::Exactly);
         let target = gpu.target(size, TextureFormat::Rgba32Float);
         Self { gpu, scene, uploaded, denoiser, target, index: 0, camera: None }
+    }
+
+    /// The same stage before its first frame, where nothing is left out: a scene that stands still is watched for changes too.
+    pub fn leaving_nothing_out(self) -> Self {
+        let (size, settings) = (self.denoiser.size(), self.denoiser.settings().clone());
+        Self { denoiser: denoiser(self.gpu, size, settings, Specialize::Everything), ..self }
     }
 
     /// The pose of the animation at a frame.

@@ -147,8 +147,10 @@ fn a_view_of_what_was_not_made() {
     };
     let mut stage = Stage::built_in("cornell", "static", SIZE, Settings::adaptive());
     expect(&mut stage, &View::ALL);
-    // Nothing moves or repeats, so that objects are not told apart.
-    expect(stage.frames(2), &[View::Object]);
+    // Nothing moves or repeats, so that objects are not told apart; nothing changes, so that no path is repeated.
+    expect(stage.frames(2), &[View::Object, View::PairNow, View::PairBefore]);
+    let everything = Stage::built_in("cornell", "static", SIZE, Settings::adaptive()).leaving_nothing_out();
+    expect({ everything }.frames(2), &[]);
     let off = FilterSettings { gradient: Gradient::Off, ..Default::default() };
     stage.denoiser.set_settings(Settings { filter: off, ..Settings::adaptive() }).unwrap();
     let gradient = [View::Object, View::Gradient, View::PairNow, View::PairBefore];

@@ -13,7 +13,7 @@ fn with_gradient(gradient: Gradient) -> Settings {
 /// Asserts over 100 frames that nothing is taken for a change.
 fn assert_no_gradient(scene: &str, settings: Settings) {
     let gradient = settings.filter.gradient;
-    let mut stage = Stage::built_in(scene, "static", [48, 27], settings);
+    let mut stage = Stage::built_in(scene, "static", [48, 27], settings).leaving_nothing_out();
     for frame in 0..100 {
         stage.frame();
         assert_eq!(stage.largest(View::Lambda), 0.0, "{scene}, {gradient:?}, frame {frame}: λ");

@@ -33,7 +33,8 @@ struct Recorded {
 
 /// Frames of the box of Cornell about the one in which its lamp goes out, seen by a camera that moves and sees no lamp.
 fn recorded(settings: Settings) -> Vec<Recorded> {
-    let mut stage = Stage::built_in("cornell", "blink", SIZE, settings);
+    // The host does not say in which frames nothing changed.
+    let mut stage = Stage::built_in("cornell", "blink", SIZE, settings).leaving_nothing_out();
     (stage.index..10)
         .map(|i| {
             let index = 24 + i;
@@ -108,14 +109,10 @@ impl Uploaded {
     }
 
     fn surfaces(&self) -> Surfaces<'_> {
+        let Recorded { camera, index, .. } = self.frame;
         Surfaces {
-            camera: self.frame.camera.into(),
-            index: self.frame.index,
-            depth: &self.depth,
-            normal: &self.normal,
-            motion: &self.motion,
             previous_depth: Some(&self.previous_depth),
-            instance: None,
+            ..Surfaces::new(camera, index, &self.depth, &self.normal, &self.motion)
         }
     }
 
@@ -125,7 +122,7 @@ impl Uploaded {
 }
 
 fn denoiser(settings: Settings) -> Denoiser {
-    let descriptor = DenoiserDescriptor { size: SIZE, settings, ..Default::default() };
+    let descriptor = DenoiserDescriptor { size: SIZE, settings, views: true, ..Default::default() };
     Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap()
 }
 

@@ -1,0 +1,89 @@
+//! A plan for people: a table, and a graph.
+
+use super::{Grid, Image, Plan, Slot};
+use std::collections::BTreeMap;
+use std::fmt::{self, Write as _};
+
+/// The picture that memory is quoted for.
+const FULL_HD: [u32; 2] = [1920, 1080];
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bytes = self.bytes(FULL_HD, false) as f64 / f64::from(FULL_HD[0] * FULL_HD[1]);
+        writeln!(f, "{} dispatches, {bytes:.1} bytes per pixel at 1920×1080", self.steps.len())?;
+        writeln!(f, "\nPasses: what each reads → writes, and what is compiled into it")?;
+        for (number, step) in self.steps.iter().enumerate() {
+            let list = |out| {
+                let images = step.bindings.iter().filter(|(name, _)| writes(name) == out);
+                images.map(|(name, slot)| slot_name(name, *slot)).collect::<Vec<_>>().join(", ")
+            };
+            let per = if step.grid == Grid::Strata { "3×3 pixels" } else { "pixel" };
+            writeln!(f, "{:>3} {:<22}per {per:<12}{} → {}", number + 1, step.pass.name(), list(false), list(true))?;
+            if step.features.iter().next().is_some() {
+                let features: Vec<_> = step.features.iter().map(|feature| format!("{feature:?}")).collect();
+                writeln!(f, "    {:<38}{}", "", features.join(" "))?;
+            }
+        }
+        for (title, included) in [("In, and why", true), ("Left out, and why", false)] {
+            writeln!(f, "\n{title}")?;
+            for decision in self.decisions.iter().filter(|d| d.included == included) {
+                writeln!(f, "    {:<22}{}", decision.subject.to_string(), decision.reason)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Plan {
+    /// The plan as a Mermaid flow chart: passes blue, images yellow; iterations are one node.
+    pub fn graph(&self) -> String {
+        let mut passes: Vec<(&str, usize)> = Vec::new();
+        let mut images = BTreeMap::new();
+        let mut edges: Vec<String> = Vec::new();
+        for step in &self.steps {
+            let pass = step.pass.name();
+            match passes.iter_mut().find(|(name, _)| *name == pass) {
+                Some((_, count)) => *count += 1,
+                None => passes.push((pass, 1)),
+            }
+            for &(name, slot) in &step.bindings {
+                let label = slot_name(name, slot);
+                let id = format!("i_{}", label.replace(' ', "_"));
+                let edge = if writes(name) { format!("{pass} --> {id}") } else { format!("{id} --> {pass}") };
+                images.insert(id, label);
+                if !edges.contains(&edge) {
+                    edges.push(edge);
+                }
+            }
+        }
+        let mut out = String::from("flowchart TD\n");
+        let _ = writeln!(out, "    classDef pass fill:#cfe2ff,stroke:#2b6cb0,color:#000");
+        let _ = writeln!(out, "    classDef image fill:#fff3bf,stroke:#b7791f,color:#000");
+        for (pass, count) in passes {
+            let times = if count > 1 { format!(" ×{count}") } else { String::new() };
+            let _ = writeln!(out, "    {pass}[\"{pass}{times}\"]:::pass");
+        }
+        for (id, label) in images {
+            let _ = writeln!(out, "    {id}([\"{label}\"]):::image");
+        }
+        for edge in edges {
+            let _ = writeln!(out, "    {edge}");
+        }
+        out
+    }
+}
+
+/// Whether a binding of this name is written.
+fn writes(binding: &str) -> bool {
+    binding.ends_with("_out")
+}
+
+/// What stands behind a binding: `last` is the previous frame's; a host's view has the binding's name.
+fn slot_name(binding: &str, slot: Slot) -> String {
+    match slot {
+        Slot::Now(image) => image.name().into(),
+        Slot::Before(image) => format!("last {}", Image::name(image)),
+        Slot::Target => "target".into(),
+        Slot::Host => format!("host's {}", binding.replace('_', " ")),
+    }
+}

@@ -1,0 +1,329 @@
+//! Which texture holds which image: images whose lifetimes do not overlap share one.
+//!
+//! WebGPU has no aliasing of memory, but a texture may hold one image after another, if both have its format and extent. Over the
+//! steps of a frame that is register allocation: an image gets a free texture at the step that writes it, and gives it back after
+//! the last step that reads it. What the next frame needs is kept until that frame has read it.
+
+use super::{Grid, Image, Plan, Slot, Step};
+use std::collections::{BTreeMap, BTreeSet};
+use wgpu::TextureFormat;
+
+/// What a texture can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Kind {
+    pub format: TextureFormat,
+    pub grid: Grid,
+    /// Texels side by side for each pixel or stratum.
+    pub texels: u32,
+}
+
+impl Kind {
+    fn of(image: Image) -> Self {
+        Self { format: image.format(), grid: image.grid(), texels: image.texels() }
+    }
+
+    /// Texels in each direction, for a picture of this size.
+    pub fn extent(self, size: [u32; 2]) -> [u32; 2] {
+        let [width, height] = self.grid.extent(size);
+        [self.texels * width, height]
+    }
+
+    /// Bytes for a picture of this size.
+    pub fn bytes(self, size: [u32; 2]) -> u64 {
+        let [width, height] = self.extent(size).map(u64::from);
+        width * height * u64::from(self.format.block_copy_size(None).unwrap_or(0))
+    }
+}
+
+/// The textures of a denoiser, by number, and what is in them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Memory {
+    /// What each can hold; `None` where one was given up.
+    textures: Vec<Option<Kind>>,
+    /// Textures that nothing may be written into yet.
+    busy: BTreeSet<usize>,
+    /// Where the last frame's images are.
+    before: BTreeMap<Image, usize>,
+    /// What stands in for those where there was no last frame. Nothing is made of its content.
+    absent: BTreeMap<Image, usize>,
+    /// Where this frame's images are, or were.
+    now: BTreeMap<Image, usize>,
+    /// Those of this frame's images that others were written over.
+    overwritten: BTreeSet<Image>,
+    /// What of this frame the next one needs.
+    needed: BTreeSet<Image>,
+    /// Whether this frame is complete, so that the next one can go on from it.
+    complete: bool,
+}
+
+impl Memory {
+    /// What a frame that begins now finds of the last one. An image that this one did not write is left from the one before.
+    fn left(&self) -> BTreeMap<Image, usize> {
+        let mut left = self.before.clone();
+        if self.complete {
+            left.retain(|image, _| self.needed.contains(image));
+            let fresh = self.now.iter().filter(|(image, _)| self.needed.contains(image));
+            left.extend(fresh.map(|(&image, &texture)| (image, texture)));
+        }
+        left
+    }
+
+    /// Whether a frame that begins now finds all of the last one that these steps ask for.
+    pub fn has_all_before(&self, steps: &[Step]) -> bool {
+        let left = self.left();
+        slots(steps).all(|slot| !matches!(slot, Slot::Before(image) if !left.contains_key(&image)))
+    }
+
+    /// Begins a frame. What the last one left stays until this one is complete.
+    pub fn begin(&mut self) {
+        self.before = self.left();
+        self.busy = self.before.values().copied().collect();
+        self.absent.clear();
+        self.now.clear();
+        self.overwritten.clear();
+        self.complete = false;
+    }
+
+    /// Finds textures for the images of `steps`. What `over` says to have been used for the last time after one of them, by its
+    /// number, is free for others then.
+    pub fn place(&mut self, steps: &[Step], over: impl Fn(usize, Slot) -> bool) {
+        for (i, step) in steps.iter().enumerate() {
+            for &(_, slot) in &step.bindings {
+                match slot {
+                    Slot::Now(image) if !self.now.contains_key(&image) => {
+                        let texture = self.take(Kind::of(image));
+                        self.now.insert(image, texture);
+                    }
+                    Slot::Before(image) if self.texture(slot).is_none() => {
+                        let texture = self.take(Kind::of(image));
+                        self.absent.insert(image, texture);
+                    }
+                    _ => {}
+                }
+            }
+            for &(_, slot) in &step.bindings {
+                if let Some(texture) = self.texture(slot).filter(|_| over(i, slot)) {
+                    self.busy.remove(&texture);
+                }
+            }
+        }
+    }
+
+    /// Ends a frame, which leaves `needed` for the next.
+    pub fn end(&mut self, needed: BTreeSet<Image>) {
+        self.needed = needed;
+        self.complete = true;
+    }
+
+    /// Drops a frame that was begun: the next one goes on from the one before.
+    pub fn abandon(&mut self) {
+        self.now.clear();
+        self.complete = false;
+    }
+
+    /// Gives up the textures that hold nothing of this frame, nor of the last.
+    pub fn shrink(&mut self) {
+        let maps = [&self.now, &self.before, &self.absent];
+        let used: BTreeSet<usize> = maps.iter().flat_map(|map| map.values()).copied().collect();
+        for (number, texture) in self.textures.iter_mut().enumerate() {
+            if !used.contains(&number) {
+                *texture = None;
+            }
+        }
+    }
+
+    /// The texture behind a slot.
+    pub fn texture(&self, slot: Slot) -> Option<usize> {
+        match slot {
+            Slot::Now(image) => self.now.get(&image).copied(),
+            Slot::Before(image) => self.before.get(&image).or_else(|| self.absent.get(&image)).copied(),
+            Slot::Target | Slot::Host => None,
+        }
+    }
+
+    /// Whether this frame's image is still there when the frame is over.
+    pub fn holds(&self, image: Image) -> bool {
+        self.now.contains_key(&image) && !self.overwritten.contains(&image)
+    }
+
+    /// What each texture can hold.
+    pub fn textures(&self) -> &[Option<Kind>] {
+        &self.textures
+    }
+
+    /// A texture that may be written over, busy from now on.
+    fn take(&mut self, kind: Kind) -> usize {
+        let free = (0..self.textures.len()).find(|i| self.textures[*i] == Some(kind) && !self.busy.contains(i));
+        let texture = free.unwrap_or_else(|| match self.textures.iter().position(Option::is_none) {
+            Some(given_up) => given_up,
+            None => {
+                self.textures.push(None);
+                self.textures.len() - 1
+            }
+        });
+        self.textures[texture] = Some(kind);
+        self.busy.insert(texture);
+        self.overwritten.extend(self.now.iter().filter(|(_, t)| **t == texture).map(|(image, _)| *image));
+        texture
+    }
+}
+
+fn slots(steps: &[Step]) -> impl Iterator<Item = Slot> {
+    steps.iter().flat_map(|step| &step.bindings).map(|(_, slot)| *slot)
+}
+
+impl Plan {
+    /// Bytes of the textures that frames of this plan take turns in, for a picture of this size. With `views`, as
+    /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+    pub fn bytes(&self, size: [u32; 2], views: bool) -> u64 {
+        self.textures(views).iter().map(|kind| kind.bytes(size)).sum()
+    }
+
+    /// What those textures can hold.
+    fn textures(&self, views: bool) -> Vec<Kind> {
+        let (mut memory, needed) = (Memory::default(), self.needed());
+        // The first frame has no last one; from the second on all are alike.
+        for _ in 0..2 {
+            memory.begin();
+            memory.place(&self.steps, |step, slot| self.is_over(step, slot, &needed, views));
+            memory.end(needed.clone());
+        }
+        memory.textures().iter().copied().flatten().collect()
+    }
+
+    /// The images of which the next frame needs this one's.
+    pub(crate) fn needed(&self) -> BTreeSet<Image> {
+        self.images().into_iter().filter(|(_, before)| *before).map(|(image, _)| image).collect()
+    }
+
+    /// Whether a slot is used for the last time in the step of this number. With `views`, this frame's images are all kept until
+    /// the next.
+    pub(crate) fn is_over(&self, step: usize, slot: Slot, needed: &BTreeSet<Image>, views: bool) -> bool {
+        let used = slots(&self.steps[step + 1..]).any(|other| other == slot);
+        let written = |image| slots(&self.steps).any(|slot| slot == Slot::Now(image));
+        !used
+            && match slot {
+                Slot::Now(image) => !views && !needed.contains(&image),
+                Slot::Before(image) => !views && (written(image) || !needed.contains(&image)),
+                Slot::Target | Slot::Host => false,
+            }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{Changes, HostTraits};
+    use crate::{FilterSettings, Gradient, Mode, Settings};
+
+    /// Plans of a host's frames that differ in what they keep, each with what it is if everything changes.
+    fn plans() -> Vec<(Plan, Plan)> {
+        let gradients = [Gradient::Reshade, Gradient::Pairs, Gradient::Lambda, Gradient::Off];
+        let filters = gradients.map(|gradient| FilterSettings { gradient, ..Default::default() });
+        let filters = filters.into_iter().chain([FilterSettings::classic()]);
+        let short = |f: FilterSettings| {
+            [f.clone(), FilterSettings { iterations: 1, ..f.clone() }, FilterSettings { iterations: 0, ..f }]
+        };
+        let modes = [Mode::Denoise, Mode::Noisy, Mode::Reference];
+        let settings = filters
+            .flat_map(short)
+            .flat_map(|filter| modes.map(|mode| Settings { mode, filter: filter.clone(), ..Settings::adaptive() }));
+        let traits =
+            [false, true].map(|on| HostTraits { instances: on, albedo: on, emission: on, ..Default::default() });
+        let all: Vec<_> = settings.flat_map(|s| traits.map(|t| (s.clone(), t))).collect();
+        let changes = [Changes::ANY, Changes { camera: true, scene: false }, Changes::NONE];
+        let plan = |settings: &Settings, traits: &HostTraits, changes| {
+            Plan::hosted(traits, settings, changes, TextureFormat::Rgba32Float)
+        };
+        all.iter().flat_map(|(s, t)| changes.map(|c| (plan(s, t, c), plan(s, t, Changes::ANY)))).collect()
+    }
+
+    /// Runs frames of plans in turn, and checks at each read that the texture holds just the image that is read, of the frame
+    /// that is meant. The contents are tracked here, not in [`Memory`].
+    fn follow(frames: &[&(Plan, Plan)], views: bool) {
+        let mut memory = Memory::default();
+        let mut contents: BTreeMap<usize, (Image, usize)> = BTreeMap::new();
+        let mut written: BTreeMap<Image, usize> = BTreeMap::new();
+        for (number, (plan, most)) in frames.iter().enumerate() {
+            let continued = memory.has_all_before(&most.steps);
+            assert_eq!(
+                continued,
+                number > 0 || most.needed().is_empty(),
+                "frame {number} finds what the last one left"
+            );
+            let before = written.clone();
+            memory.begin();
+            memory.place(&plan.steps, |step, slot| plan.is_over(step, slot, &most.needed(), views));
+            memory.end(most.needed());
+            for step in &plan.steps {
+                let (outputs, inputs): (Vec<_>, Vec<_>) =
+                    step.bindings.iter().partition(|(name, _)| name.ends_with("_out"));
+                let place = |slot| memory.texture(slot).unwrap_or_else(|| panic!("{slot:?} has no texture"));
+                for &(name, slot) in inputs {
+                    match slot {
+                        Slot::Now(image) => {
+                            assert_eq!(contents[&place(slot)], (image, number), "{:?} {name}", step.pass)
+                        }
+                        Slot::Before(image) if continued => {
+                            assert_eq!(contents[&place(slot)], (image, before[&image]), "{:?} {name}", step.pass);
+                        }
+                        _ => {}
+                    }
+                }
+                for &(name, slot) in outputs {
+                    if let Slot::Now(image) = slot {
+                        let texture = place(slot);
+                        let read =
+                            |(_, other): &&(&str, Slot)| memory.texture(*other) == Some(texture) && *other != slot;
+                        assert!(
+                            step.bindings.iter().find(read).is_none(),
+                            "{:?} {name} is written where it is read",
+                            step.pass
+                        );
+                        contents.insert(texture, (image, number));
+                        written.insert(image, number);
+                    }
+                }
+            }
+            for (&image, &frame) in &written {
+                let there = memory.texture(Slot::Now(image)).is_some_and(|t| contents[&t] == (image, number));
+                assert!(!memory.holds(image) || there, "{image:?} is said to be there");
+                let kept = frame < number || memory.holds(image) && there;
+                assert!(!views || kept, "{image:?} is kept");
+            }
+        }
+    }
+
+    #[test]
+    fn no_image_is_written_over_while_it_is_needed() {
+        for same in plans().chunks_exact(3) {
+            for (plan, views) in same.iter().flat_map(|plan| [(plan, false), (plan, true)]) {
+                // Nothing is known not to have changed before there is a frame.
+                follow(&[&same[0], plan, plan, plan, plan], views);
+            }
+        }
+    }
+
+    #[test]
+    fn frames_that_leave_passes_out_keep_what_later_ones_need() {
+        let plans = plans();
+        for same in plans.chunks_exact(3) {
+            let [any, camera, still] = [&same[0], &same[1], &same[2]];
+            follow(&[any, still, still, any, camera, camera, any, any, still, camera, any], false);
+        }
+    }
+
+    #[test]
+    fn sharing_saves_memory_and_views_cost_it() {
+        for (plan, _) in plans() {
+            let [shared, kept] = [false, true].map(|views| plan.bytes([300, 300], views));
+            assert!(shared <= kept, "{shared} bytes instead of {kept}");
+            let images: u64 = plan
+                .images()
+                .iter()
+                .map(|(image, before)| Kind::of(*image).bytes([300, 300]) * (1 + u64::from(*before)))
+                .sum();
+            assert_eq!(kept, images, "one texture for each image and each that is kept");
+        }
+    }
+}
