@@ -5,7 +5,7 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_tap, pack_length_lambda, unpack_length}
+#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_motion, unpack_normal, pack_tap, pack_length_lambda, unpack_length}
 #import asvgf::reproject::{Origin, origin_of, same_surface}
 #ifdef EXTERNAL_LAMBDA
 #import asvgf::color::is_finite
@@ -18,7 +18,7 @@
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
-@group(0) @binding(3) var motion: texture_2d<f32>;
+@group(0) @binding(3) var motion: texture_2d<u32>;
 #ifdef OBJECTS
 @group(0) @binding(4) var object: texture_2d<u32>;
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
@@ -121,7 +121,7 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
 }
 
 fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> History {
-    let point = clamp(vec2<f32>(pixel) + m.xy, vec2(-1e6), vec2(1e6));
+    let point = vec2<f32>(pixel) + m.xy;
     let corner = floor(point + 1e-4);
     let f = max(point - corner, vec2(0.0));
     let base = vec2<i32>(corner);
@@ -258,7 +258,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let l = luminance(sample);
     var history = History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
     if frame.continued != 0u {
-        let m = textureLoad(motion, pixel, 0).xyz;
+        let m = unpack_motion(textureLoad(motion, pixel, 0).xy);
 #ifdef OBJECTS
         let here = textureLoad(object, pixel, 0).x;
 #else

@@ -2,7 +2,7 @@
 
 #import asvgf::frame::{frame, inside, project, sample_point, world_position}
 #import asvgf::color::{is_finite, luminance}
-#import asvgf::packing::{unpack_rgb, tap_color, unpack_normal, unpack_length, unpack_lambda}
+#import asvgf::packing::{unpack_rgb, tap_color, unpack_motion, unpack_normal, unpack_length, unpack_lambda}
 #import asvgf::random::hash
 #if VIEW >= 17
 #import asvgf::strata::{is_sample_pixel, place_now, place_before, stratum_of}
@@ -40,12 +40,12 @@
 @group(0) @binding(6) var visibility: texture_2d<u32>;
 #endif
 #if VIEW == 6
-@group(0) @binding(7) var motion: texture_2d<f32>;
+@group(0) @binding(7) var motion: texture_2d<u32>;
 #endif
 #if VIEW == 14
 // Error of the motion.
 @group(0) @binding(5) var guide: texture_2d<u32>;
-@group(0) @binding(7) var motion: texture_2d<f32>;
+@group(0) @binding(7) var motion: texture_2d<u32>;
 #endif
 #if VIEW == 15
 @group(0) @binding(4) var emission: texture_2d<u32>;
@@ -142,7 +142,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(f32(id & 0xffffu), f32(id >> 16u), select(1.0, 0.0, id == 0xffffffffu));
 #endif
 #if VIEW == 6
-    return textureLoad(motion, pixel, 0).xyz;
+    return unpack_motion(textureLoad(motion, pixel, 0).xy);
 #endif
 #if VIEW == 7
     let g = textureLoad(gradient, pixel / 3, 0).xy;
@@ -180,7 +180,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     let point = sample_point(frame.camera, vec2<f32>(pixel));
     let rest = project(frame.previous, world_position(frame.camera, point, depth));
     let implied = vec3(rest.xy - point, rest.z);
-    return select(vec3(0.0), textureLoad(motion, pixel, 0).xyz - implied, depth > 0.0 && rest.z > 0.0);
+    return select(vec3(0.0), unpack_motion(textureLoad(motion, pixel, 0).xy) - implied, depth > 0.0 && rest.z > 0.0);
 #endif
 #if VIEW == 15
     return unpack_rgb(textureLoad(emission, pixel, 0).xy);

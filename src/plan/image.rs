@@ -62,16 +62,18 @@ impl Image {
     pub fn format(self) -> TextureFormat {
         match self {
             Self::Visibility | Self::Object => TextureFormat::R32Uint,
-            Self::Guide | Self::Radiance | Self::Emission | Self::Feedback | Self::PairNow | Self::PairBefore => {
-                TextureFormat::Rg32Uint
-            }
+            Self::Guide
+            | Self::Motion
+            | Self::Radiance
+            | Self::Emission
+            | Self::Feedback
+            | Self::PairNow
+            | Self::PairBefore => TextureFormat::Rg32Uint,
             Self::History | Self::Samples | Self::Repeats | Self::Color(_) => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
             Self::PairsProduct(_) => TextureFormat::R32Float,
             Self::Gradient(_) => TextureFormat::Rgba32Float,
-            Self::Motion | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
-                TextureFormat::Rgba32Float
-            }
+            Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => TextureFormat::Rgba32Float,
         }
     }
 

@@ -2,7 +2,8 @@
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
-    assert_close, depth, float, luminance, pack_rgb, radiance, unpack_normal, unpack_rgb, unpack_tap, word,
+    assert_close, depth, float, luminance, pack_motion, pack_rgb, radiance, unpack_motion, unpack_normal, unpack_rgb,
+    unpack_tap, word,
 };
 use super::plane::{Pinhole, V, add, dot, scale, sub};
 use super::random::Random;
@@ -147,7 +148,7 @@ impl Given {
         let all = [
             ("guide", self.guide.iter().map(pack_guide).collect()),
             ("guide_previous", self.guide_before.iter().map(pack_guide).collect()),
-            ("motion", self.motion.iter().map(|m| [word(m[0]), word(m[1]), word(m[2]), 0]).collect()),
+            ("motion", self.motion.iter().map(|&m| pack_guide(&pack_motion(m))).collect()),
             ("object", self.object.iter().map(|&o| [o; 4]).collect()),
             ("object_previous", self.object_before.iter().map(|&o| [o; 4]).collect()),
             ("radiance", self.radiance.clone()),
@@ -349,8 +350,8 @@ impl Bench {
             _ => [0.0; 2],
         };
         let moved = [was[0] - f64::from(x) - 0.5 - jx + extra[0], was[1] - f64::from(y) - 0.5 - jy + extra[1], was[2]];
-        // As the texture holds it; what stands still exactly has none.
-        moved.map(|m| if m.abs() < 1e-9 { 0.0 } else { f64::from(m as f32) })
+        // As the texture holds it.
+        unpack_motion(pack_motion(moved))
     }
 }
 
