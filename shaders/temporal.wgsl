@@ -40,7 +40,7 @@
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
 // What the spatial filter reads.
-@group(0) @binding(14) var color_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(14) var color_out: texture_storage_2d<rg32uint, write>;
 
 // What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had, and with
 // FEEDBACK three are written.
@@ -330,5 +330,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     // What is filtered is what was stored.
     let stored = unpack_rgb(packed);
-    textureStore(color_out, pixel, select(vec4(0u), pack_tap(stored, sqrt(guiding), g), seen));
+    textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(stored, sqrt(guiding)), seen), 0u, 0u));
 }

@@ -11,7 +11,7 @@
 #ifdef FEEDBACK
 @group(0) @binding(3) var feedback: texture_2d<u32>;
 #endif
-@group(0) @binding(4) var color_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(4) var color_out: texture_storage_2d<rg32uint, write>;
 
 // History length below which the variance is a spatial one.
 const SHORT: f32 = 4.0;
@@ -80,5 +80,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     let color = unpack_rgb(h.xy);
 #endif
-    textureStore(color_out, pixel, pack_tap(color, sqrt(variance), g));
+    textureStore(color_out, pixel, vec4(pack_tap(color, sqrt(variance)), 0u, 0u));
 }

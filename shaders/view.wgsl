@@ -13,6 +13,7 @@
 @group(0) @binding(1) var color: texture_2d<u32>;
 #ifdef BACKGROUND
 @group(0) @binding(2) var radiance: texture_2d<u32>;
+@group(0) @binding(5) var guide: texture_2d<u32>;
 #endif
 #endif
 #if VIEW == 1
@@ -101,10 +102,9 @@ struct Show {
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
 #if VIEW == 0
-    let tap = textureLoad(color, pixel, 0);
-    var c = tap_color(tap);
+    var c = tap_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
-    if tap.w == 0u {
+    if textureLoad(guide, pixel, 0).y == 0u {
         c = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
     }
 #endif
@@ -168,7 +168,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(bitcast<f32>(textureLoad(history, pixel, 0).z));
 #endif
 #if VIEW == 12
-    let c = tap_color(textureLoad(color, pixel, 0));
+    let c = tap_color(textureLoad(color, pixel, 0).xy);
     let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z);
     return vec3(select(1.0, 0.0, ok));
 #endif

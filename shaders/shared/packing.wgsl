@@ -36,20 +36,19 @@ fn unpack_unsigned(bits: u32) -> f32 {
     return bitcast<f32>(bits << 13u) * 7.922816e28;
 }
 
-// What the spatial filter reads of a tap, in one texel: colour, standard deviation of its luminance, packed normal, depth.
-fn pack_tap(color: vec3<f32>, deviation: f32, normal_depth: vec2<u32>) -> vec4<u32> {
-    return vec4(
+// What the spatial filter carries from one iteration to the next: colour and standard deviation of its luminance.
+fn pack_tap(color: vec3<f32>, deviation: f32) -> vec2<u32> {
+    return vec2(
         pack_unsigned(color.x) | (pack_unsigned(color.y) << 16u),
         pack_unsigned(color.z) | (pack_unsigned(deviation) << 16u),
-        normal_depth,
     );
 }
 
-fn tap_color(tap: vec4<u32>) -> vec3<f32> {
+fn tap_color(tap: vec2<u32>) -> vec3<f32> {
     return vec3(unpack_unsigned(tap.x & 0xffffu), unpack_unsigned(tap.x >> 16u), unpack_unsigned(tap.y & 0xffffu));
 }
 
-fn tap_variance(tap: vec4<u32>) -> f32 {
+fn tap_variance(tap: vec2<u32>) -> f32 {
     let deviation = unpack_unsigned(tap.y >> 16u);
     return deviation * deviation;
 }

@@ -19,6 +19,7 @@ pub(crate) fn step(features: Features, color: Option<Image>) -> Step {
         features,
         [
             ("radiance", Slot::Now(Image::Radiance), &[Feature::Background]),
+            ("guide", Slot::Now(Image::Guide), &[Feature::Background]),
             ("albedo", Slot::Now(Image::Albedo), &[Feature::Albedo]),
             ("emission", Slot::Now(Image::Emission), &[Feature::DirectEmission]),
             ("sum_previous", Slot::Before(Image::Sum), &[Feature::Accumulate]),

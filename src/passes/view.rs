@@ -88,7 +88,7 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         ],
     );
     let names: &[&str] = match view {
-        View::Denoised if features.has(Feature::Background) => &["color", "radiance", "albedo", "emission"],
+        View::Denoised if features.has(Feature::Background) => &["color", "radiance", "guide", "albedo", "emission"],
         View::Denoised => &["color", "albedo", "emission"],
         View::Noisy => &["radiance", "albedo", "emission"],
         View::Albedo | View::Rays => &["albedo"],

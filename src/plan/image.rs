@@ -24,7 +24,7 @@ pub enum Image {
     History,
     /// The history's colour, where it comes from the spatial filter.
     Feedback,
-    /// Colour, variance, normal and depth between spatial iterations; two take turns.
+    /// Colour and deviation between spatial iterations; two take turns.
     Color(u8),
     /// Records of the strata.
     Samples,
@@ -67,9 +67,10 @@ impl Image {
             | Self::Radiance
             | Self::Emission
             | Self::Feedback
+            | Self::Color(_)
             | Self::PairNow
             | Self::PairBefore => TextureFormat::Rg32Uint,
-            Self::History | Self::Samples | Self::Repeats | Self::Color(_) => TextureFormat::Rgba32Uint,
+            Self::History | Self::Samples | Self::Repeats => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
             Self::PairsProduct(_) => TextureFormat::R32Float,
             Self::Gradient(_) => TextureFormat::Rgba32Float,

@@ -69,9 +69,9 @@ pub(super) fn unpack_normal(bits: u32) -> V {
 }
 
 /// Colour and standard deviation.
-pub(super) fn pack_tap(color: V, deviation: f64, guide: [u32; 2]) -> Texel {
+pub(super) fn pack_tap(color: V, deviation: f64) -> [u32; 2] {
     let [r, g, b] = color.map(pack_unsigned);
-    [r | g << 16, b | pack_unsigned(deviation) << 16, guide[0], guide[1]]
+    [r | g << 16, b | pack_unsigned(deviation) << 16]
 }
 
 pub(super) fn unpack_tap(t: Texel) -> (V, f64) {

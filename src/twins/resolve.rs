@@ -35,10 +35,10 @@ fn check(features: &[Feature], bright: f64) {
                 [a, b, 0, 0]
             };
             // Every fifth pixel sees nothing.
-            let color = texels(&mut |r| match r.below(5) {
-                _ if unfiltered => packed(r),
-                0 => [0; 4],
-                _ => pack_tap(radiance(r), 1.0, [1, 1]),
+            let guide = texels(&mut |r| [1, u32::from(r.below(5) > 0), 0, 0]);
+            let color = texels(&mut |r| {
+                let [a, b] = pack_tap(radiance(r), 1.0);
+                if unfiltered { packed(r) } else { [a, b, 0, 0] }
             });
             let sky = texels(&mut |r| packed(r));
             let albedo = texels(&mut |r| {
@@ -51,6 +51,7 @@ fn check(features: &[Feature], bright: f64) {
             let mut inputs = vec![(if unfiltered { "radiance" } else { "color" }, color.clone())];
             if features.has(Feature::Background) {
                 inputs.push(("radiance", sky.clone()));
+                inputs.push(("guide", guide.clone()));
             }
             if features.has(Feature::Albedo) {
                 inputs.push(("albedo", albedo.clone()));
@@ -65,7 +66,7 @@ fn check(features: &[Feature], bright: f64) {
             for i in 0..count {
                 let reflected = if unfiltered {
                     unpack_rgb([color[i][0], color[i][1]])
-                } else if features.has(Feature::Background) && color[i][3] == 0 {
+                } else if features.has(Feature::Background) && guide[i][1] == 0 {
                     unpack_rgb([sky[i][0], sky[i][1]])
                 } else {
                     unpack_tap(color[i]).0
