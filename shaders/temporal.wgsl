@@ -5,7 +5,7 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_motion, unpack_normal, pack_tap, pack_length_lambda, unpack_length}
+#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_motion, unpack_normal, pack_length_lambda, unpack_length}
 #import asvgf::reproject::{Origin, origin_of, same_surface}
 #ifdef EXTERNAL_LAMBDA
 #import asvgf::color::is_finite
@@ -39,30 +39,19 @@
 @group(0) @binding(10) var external_lambda: texture_2d<f32>;
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
-// What the spatial filter reads.
-@group(0) @binding(14) var color_out: texture_storage_2d<rg32uint, write>;
 
-// What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had, and with
-// FEEDBACK three are written.
+// What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had.
 #ifdef STORAGE_READS
-@group(0) @binding(7) var history_previous: texture_storage_2d<rgba32uint, read>;
-
-fn history_at(tap: vec2<i32>) -> vec4<u32> {
-    return textureLoad(history_previous, tap);
-}
-#ifdef FEEDBACK
-@group(0) @binding(2) var guide_previous: texture_2d<u32>;
-
-fn guide_at(tap: vec2<i32>) -> vec2<u32> {
-    return textureLoad(guide_previous, tap, 0).xy;
-}
-#else
 @group(0) @binding(2) var guide_previous: texture_storage_2d<rg32uint, read>;
+@group(0) @binding(7) var history_previous: texture_storage_2d<rgba32uint, read>;
 
 fn guide_at(tap: vec2<i32>) -> vec2<u32> {
     return textureLoad(guide_previous, tap).xy;
 }
-#endif
+
+fn history_at(tap: vec2<i32>) -> vec4<u32> {
+    return textureLoad(history_previous, tap);
+}
 #else
 @group(0) @binding(2) var guide_previous: texture_2d<u32>;
 @group(0) @binding(7) var history_previous: texture_2d<u32>;
@@ -321,14 +310,4 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let kept_history = vec4(packed, bitcast<u32>(variance), pack_length_lambda(length, lambda));
 #endif
     textureStore(history_out, pixel, select(vec4(0u), kept_history, seen));
-#ifdef VARIANCE_OF_MEAN
-    // Bessel's correction while it matters, then the variance of a mean of n.
-    let bessel = select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
-    let guiding = variance * bessel / length;
-#else
-    let guiding = variance;
-#endif
-    // What is filtered is what was stored.
-    let stored = unpack_rgb(packed);
-    textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(stored, sqrt(guiding)), seen), 0u, 0u));
 }

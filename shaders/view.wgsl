@@ -2,7 +2,7 @@
 
 #import asvgf::frame::{frame, inside, project, sample_point, world_position}
 #import asvgf::color::{is_finite, luminance}
-#import asvgf::packing::{unpack_rgb, tap_color, unpack_motion, unpack_normal, unpack_length, unpack_lambda}
+#import asvgf::packing::{unpack_rgb, filtered_color, unpack_motion, unpack_normal, unpack_length, unpack_lambda}
 #import asvgf::random::hash
 #if VIEW >= 17
 #import asvgf::strata::{is_sample_pixel, place_now, place_before, stratum_of}
@@ -102,7 +102,7 @@ struct Show {
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
 #if VIEW == 0
-    var c = tap_color(textureLoad(color, pixel, 0).xy);
+    var c = filtered_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
     if textureLoad(guide, pixel, 0).y == 0u {
         c = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
@@ -168,7 +168,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(bitcast<f32>(textureLoad(history, pixel, 0).z));
 #endif
 #if VIEW == 12
-    let c = tap_color(textureLoad(color, pixel, 0).xy);
+    let c = filtered_color(textureLoad(color, pixel, 0).xy);
     let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z);
     return vec3(select(1.0, 0.0, ok));
 #endif

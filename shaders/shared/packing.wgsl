@@ -53,6 +53,15 @@ fn tap_variance(tap: vec2<u32>) -> f32 {
     return deviation * deviation;
 }
 
+// The filtered colour, in the format of the image in which the last pass of the filter left it.
+fn filtered_color(texel: vec2<u32>) -> vec3<f32> {
+#ifdef TEMPORAL_ONLY
+    return unpack_rgb(texel);
+#else
+    return tap_color(texel);
+#endif
+}
+
 // A unit vector as three signed 10-bit numbers (0.06° at worst). Unlike an octahedral map it needs no normalisation and
 // no branch to read back, and the à-trous filter reads it 52 times per pixel.
 fn pack_normal(n: vec3<f32>) -> u32 {

@@ -5,6 +5,7 @@ use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
 const FEATURES: &[Feature] = &[
     Feature::Unfiltered,
+    Feature::TemporalOnly,
     Feature::Background,
     Feature::Albedo,
     Feature::DirectEmission,

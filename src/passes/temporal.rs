@@ -13,7 +13,6 @@ const FEATURES: &[Feature] = &[
     Feature::Confidence,
     Feature::BlendByLambda,
     Feature::Feedback,
-    Feature::VarianceOfMean,
 ];
 
 /// `gradient` is where the filtered gradient is, if there is one.
@@ -42,7 +41,6 @@ pub(crate) fn step(features: Features, gradient: Option<Image>) -> Step {
                 ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
                 ("external_lambda", Slot::Host, &[Feature::ExternalLambda]),
                 ("history_out", Slot::Now(Image::History), &[]),
-                ("color_out", Slot::Now(Image::Color(0)), &[]),
             ],
         ),
     }

@@ -48,10 +48,20 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         View::PairBefore => before,
         _ => Slot::Now(Image::Radiance),
     };
-    let known = [Feature::Albedo, Feature::DirectEmission, Feature::Background, Feature::BlendByLambda, Feature::Pairs];
+    let known = [
+        Feature::TemporalOnly,
+        Feature::Albedo,
+        Feature::DirectEmission,
+        Feature::Background,
+        Feature::BlendByLambda,
+        Feature::Pairs,
+    ];
     let mut features = plan.features.and(Features::of(&known));
     if !matches!(view, View::Denoised | View::Noisy | View::Emission) {
         features = features.without(Feature::DirectEmission);
+    }
+    if !matches!(view, View::Denoised | View::NonFinite) {
+        features = features.without(Feature::TemporalOnly);
     }
     if view != View::Denoised {
         features = features.without(Feature::Background);

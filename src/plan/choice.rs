@@ -88,6 +88,7 @@ fn filter_features(filter: &FilterSettings) -> Features {
         // An analytic pair is blind to what blocks a light: its ratio would rescale shadows too.
         (HistoryRatio, (reshade || pairs) && filter.history_ratio),
         (BlendByLambda, filter.blend == Blend::Lambda),
+        (TemporalOnly, !spatial),
         (Feedback, spatial && filter.feedback),
         (VarianceOfMean, filter.variance == Variance::OfMean),
         (ClassicStops, filter.stops == Stops::Classic),

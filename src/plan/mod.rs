@@ -137,9 +137,11 @@ impl Plan {
             self.gradient = Some(Image::Gradient((iterations % 2) as u8));
         }
         self.steps.push(passes::temporal::step(features, self.gradient));
-        if filter.iterations > 0 {
-            self.steps.push(passes::variance::step(features));
+        if features.has(Feature::TemporalOnly) {
+            self.color = Some(Image::History);
+            return;
         }
+        self.steps.push(passes::variance::step(features));
         self.steps.extend((0..filter.iterations).map(|i| passes::atrous::step(features, i)));
         self.color = Some(Image::Color((filter.iterations % 2) as u8));
     }
