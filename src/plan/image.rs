@@ -34,12 +34,10 @@ pub enum Image {
     PairNow,
     /// The radiance before of that pair.
     PairBefore,
-    /// Radiances now of the gradient's pairs; two take turns while they are filtered.
+    /// Radiances now of the gradient's pairs, and products; two take turns while they are filtered.
     PairsNow(u8),
     /// Radiances before.
     PairsBefore(u8),
-    /// Products of both.
-    PairsProduct(u8),
     /// Numerator and denominator of λ on the stratum's surface, and on any; two take turns.
     Gradient(u8),
     /// What the history is multiplied with.
@@ -70,11 +68,11 @@ impl Image {
             | Self::Color(_)
             | Self::PairNow
             | Self::PairBefore => TextureFormat::Rg32Uint,
-            Self::History | Self::Samples | Self::Repeats => TextureFormat::Rgba32Uint,
+            Self::History | Self::Samples | Self::Repeats | Self::PairsNow(_) | Self::PairsBefore(_) => {
+                TextureFormat::Rgba32Uint
+            }
             Self::Albedo => TextureFormat::Rgba16Float,
-            Self::PairsProduct(_) => TextureFormat::R32Float,
-            Self::Gradient(_) => TextureFormat::Rgba32Float,
-            Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => TextureFormat::Rgba32Float,
+            Self::Gradient(_) | Self::Ratio | Self::Sum => TextureFormat::Rgba32Float,
         }
     }
 
@@ -87,7 +85,6 @@ impl Image {
             | Self::PairBefore
             | Self::PairsNow(_)
             | Self::PairsBefore(_)
-            | Self::PairsProduct(_)
             | Self::Gradient(_)
             | Self::Ratio => Grid::Strata,
             _ => Grid::Pixels,
