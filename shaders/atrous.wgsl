@@ -10,13 +10,15 @@
 #import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var<uniform> stride: i32;
-// Demodulated radiance, deviation of its luminance, normal and depth.
+// Normal and depth; demodulated radiance and deviation of its luminance.
 #ifdef STORAGE_READS
-@group(0) @binding(3) var color: texture_storage_2d<rgba32uint, read>;
+@group(0) @binding(2) var guide: texture_storage_2d<rg32uint, read>;
+@group(0) @binding(3) var color: texture_storage_2d<rg32uint, read>;
 #else
+@group(0) @binding(2) var guide: texture_2d<u32>;
 @group(0) @binding(3) var color: texture_2d<u32>;
 #endif
-@group(0) @binding(5) var color_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(5) var color_out: texture_storage_2d<rg32uint, write>;
 #ifdef FEEDBACK
 // The next frame's history of the colour.
 @group(0) @binding(6) var feedback_out: texture_storage_2d<rg32uint, write>;
@@ -46,25 +48,35 @@ struct Sums {
 #endif
 }
 
-fn texel(pixel: vec2<i32>) -> vec4<u32> {
+struct Tap {
+    color: vec2<u32>,
+    normal: u32,
+    depth: f32,
+}
+
+fn tap_at(pixel: vec2<i32>) -> Tap {
 #ifdef STORAGE_READS
-    return textureLoad(color, pixel);
+    let g = textureLoad(guide, pixel).xy;
+    return Tap(textureLoad(color, pixel).xy, g.x, bitcast<f32>(g.y));
 #else
-    return textureLoad(color, pixel, 0);
+    let g = textureLoad(guide, pixel, 0).xy;
+    return Tap(textureLoad(color, pixel, 0).xy, g.x, bitcast<f32>(g.y));
 #endif
 }
 
-// A tap's texel; all zero, which is a depth of 0 and so no surface, outside the image.
-fn load(pixel: vec2<i32>, offset: vec2<i32>) -> vec4<u32> {
-    let tap = pixel + offset * stride;
-    return select(vec4(0u), texel(tap), inside(tap));
+// A tap; its depth is 0, so that there is no surface, outside the image.
+fn load(pixel: vec2<i32>, offset: vec2<i32>) -> Tap {
+    let place = pixel + offset * stride;
+    var tap = tap_at(place);
+    tap.depth = select(0.0, tap.depth, inside(place));
+    return tap;
 }
 
-fn add_tap(sums: ptr<function, Sums>, c: Center, texel: vec4<u32>, offset: vec2<i32>, kernel: f32) {
-    let depth = bitcast<f32>(texel.w);
-    let sample = tap_color(texel);
-    let sample_variance = tap_variance(texel);
-    let cosine = dot(c.normal, unpack_normal_511(texel.z));
+fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, kernel: f32) {
+    let depth = tap.depth;
+    let sample = tap_color(tap.color);
+    let sample_variance = tap_variance(tap.color);
+    let cosine = dot(c.normal, unpack_normal_511(tap.normal));
     let difference = luminance(sample) - c.own;
 #ifdef CLASSIC_STOPS
     // The talk's three stops. ∇z is that of the tangent plane, exact where differences of neighbours are not; the ε of
@@ -118,8 +130,8 @@ fn fit(sums: Sums) -> vec3<f32> {
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
-    let own = texel(pixel);
-    let depth = bitcast<f32>(own.w);
+    let own = tap_at(pixel);
+    let depth = own.depth;
     let west = load(pixel, vec2(-1, 0));
     let east = load(pixel, vec2(1, 0));
     let north = load(pixel, vec2(0, -1));
@@ -128,16 +140,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let north_east = load(pixel, vec2(1, -1));
     let south_west = load(pixel, vec2(-1, 1));
     let south_east = load(pixel, vec2(1, 1));
-    let own_color = tap_color(own);
-    let own_variance = tap_variance(own);
+    let own_color = tap_color(own.color);
+    let own_variance = tap_variance(own.color);
 #ifdef FIRST_ITERATION
     // 3×3 Gaussian: one pixel's variance is itself a noisy estimate. Later iterations have averaged it already.
     let edges = vec4(
-        tap_variance(west), tap_variance(east), tap_variance(north), tap_variance(south));
+        tap_variance(west.color), tap_variance(east.color), tap_variance(north.color), tap_variance(south.color));
     let corners = vec4(
-        tap_variance(north_west), tap_variance(north_east), tap_variance(south_west), tap_variance(south_east));
-    let edges_exist = vec4<f32>(vec4(west.w, east.w, north.w, south.w) != vec4(0u));
-    let corners_exist = vec4<f32>(vec4(north_west.w, north_east.w, south_west.w, south_east.w) != vec4(0u));
+        tap_variance(north_west.color), tap_variance(north_east.color), tap_variance(south_west.color), tap_variance(south_east.color));
+    let edges_exist = vec4<f32>(vec4(west.depth, east.depth, north.depth, south.depth) > vec4(0.0));
+    let corner_depths = vec4(north_west.depth, north_east.depth, south_west.depth, south_east.depth);
+    let corners_exist = vec4<f32>(corner_depths > vec4(0.0));
     let variance = (4.0 * own_variance + 2.0 * dot(edges, edges_exist) + dot(corners, corners_exist))
         / (4.0 + 2.0 * dot(edges_exist, vec4(1.0)) + dot(corners_exist, vec4(1.0)));
 #else
@@ -146,7 +159,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own_luminance = luminance(own_color);
     // A filter blurs by about as much as the noise that it is told of: below some noise it does more harm than good.
     let converged = variance <= frame.converged * frame.converged * own_luminance * own_luminance;
-    let normal = unpack_normal(own.z);
+#ifndef STORAGE_READS
+    // Tiles of sky, and of what has converged, are spared their taps. (A CPU executes both sides of a branch.)
+    if converged || depth <= 0.0 {
+        store(pixel, own_color, sqrt(own_variance), depth > 0.0);
+        return;
+    }
+#endif
+    let normal = unpack_normal(own.normal);
     var plane = tangent_plane(vec2<f32>(pixel), normal, depth);
 #ifdef CLASSIC_STOPS
     let gradient = -depth * plane.slope.yz / select(plane.slope.x, -1e-4, abs(plane.slope.x) < 1e-4);
@@ -197,11 +217,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     let filtered = sums.color / sums.weight;
 #endif
-    // A miss is carried on as it is: it filters nothing, and what comes of it is not kept.
-    let result = select(pack_tap(filtered, sqrt(sums.variance) / sums.weight, own.zw), own, converged);
-    textureStore(color_out, pixel, select(vec4(0u), result, depth > 0.0));
+    let deviation = sqrt(sums.variance) / sums.weight;
+    store(pixel, select(filtered, own_color, converged), select(deviation, sqrt(own_variance), converged), depth > 0.0);
+}
+
+// A miss is carried on as it is: it filters nothing, and what comes of it is not kept.
+fn store(pixel: vec2<i32>, color: vec3<f32>, deviation: f32, seen: bool) {
+    textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(color, deviation), seen), 0u, 0u));
 #ifdef FEEDBACK
-    textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(filtered), depth > 0.0), 0u, 0u));
+    textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(color), seen), 0u, 0u));
 #endif
 }
 

@@ -9,6 +9,9 @@
 #import asvgf::color::luminance
 #import asvgf::packing::unpack_rgb
 #import asvgf::strata::{place_now, place_before, previous_pixel}
+#ifdef HISTORY_RATIO
+#import asvgf::pairs::unpack_pair
+#endif
 #ifdef BLINN_PHONG
 #import asvgf::blinn_phong::shade_pair
 #endif
@@ -21,9 +24,8 @@
 @group(0) @binding(3) var radiance_previous: texture_2d<u32>;
 #endif
 #ifdef HISTORY_RATIO
-@group(0) @binding(4) var now_filtered: texture_2d<f32>;
-@group(0) @binding(5) var before_filtered: texture_2d<f32>;
-@group(0) @binding(6) var product_filtered: texture_2d<f32>;
+@group(0) @binding(4) var now_filtered: texture_2d<u32>;
+@group(0) @binding(5) var before_filtered: texture_2d<u32>;
 // ρ for r, g, b and luminance.
 @group(0) @binding(7) var ratio_out: texture_storage_2d<rgba32float, write>;
 #endif
@@ -48,9 +50,9 @@ struct HistoryRatio {
 }
 
 fn history_ratio(stratum: vec2<i32>) -> HistoryRatio {
-    let now = textureLoad(now_filtered, stratum, 0);
-    let before = textureLoad(before_filtered, stratum, 0);
-    let product = textureLoad(product_filtered, stratum, 0).x;
+    let pair = unpack_pair(textureLoad(now_filtered, stratum, 0), textureLoad(before_filtered, stratum, 0));
+    let now = pair.now;
+    let before = pair.before;
     let l = luminance(now.xyz);
     let l_before = luminance(before.xyz);
     // A prior towards 1 in proportion to what there was; in full darkness there is nothing to scale.
@@ -69,7 +71,7 @@ fn history_ratio(stratum: vec2<i32>) -> HistoryRatio {
     var ratio = vec4(color_ratio, luminance_ratio);
     // Shrink towards 1 by the ratio's own variance (the delta method for a quotient of means of correlated pairs).
     let r = luminance_ratio;
-    let variance = max(now.w - 2.0 * r * product + r * r * before.w, 0.0)
+    let variance = max(now.w - 2.0 * r * pair.product + r * r * before.w, 0.0)
         / (frame.ratio_shrinkage * max(l_before * l_before, DARK));
     let excess = (r - 1.0) * (r - 1.0);
     let kept = select(max(0.0, 1.0 - variance / max(excess, 1e-9)), 0.0, excess == 0.0 && variance > 0.0);

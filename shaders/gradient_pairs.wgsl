@@ -4,17 +4,14 @@
 #import asvgf::frame::frame
 #import asvgf::color::luminance
 #import asvgf::packing::unpack_rgb
+#import asvgf::pairs::{Pair, pack_now, pack_before}
 #import asvgf::strata::{place_now, place_before}
 
 @group(0) @binding(1) var samples: texture_2d<u32>;
 @group(0) @binding(2) var radiance: texture_2d<u32>;
 @group(0) @binding(3) var radiance_previous: texture_2d<u32>;
-// rgb of f, l²
-@group(0) @binding(4) var now_out: texture_storage_2d<rgba32float, write>;
-// rgb of f', l'²
-@group(0) @binding(5) var before_out: texture_storage_2d<rgba32float, write>;
-// l·l'
-@group(0) @binding(6) var product_out: texture_storage_2d<r32float, write>;
+@group(0) @binding(4) var now_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(5) var before_out: texture_storage_2d<rgba32uint, write>;
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -28,7 +25,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let l = luminance(now);
     let l_before = luminance(before);
-    textureStore(now_out, stratum, vec4(now, l * l));
-    textureStore(before_out, stratum, vec4(before, l_before * l_before));
-    textureStore(product_out, stratum, vec4(l * l_before));
+    let pair = Pair(vec4(now, l * l), vec4(before, l_before * l_before), l * l_before);
+    textureStore(now_out, stratum, pack_now(pair));
+    textureStore(before_out, stratum, pack_before(pair));
 }

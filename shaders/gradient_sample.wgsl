@@ -7,13 +7,13 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::random::hash
-#import asvgf::packing::unpack_normal
+#import asvgf::packing::{unpack_motion, unpack_normal}
 #import asvgf::reproject::{origin_of, same_surface}
 #import asvgf::strata::{is_sample_pixel, sample_pixel, stratum_of}
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 @group(0) @binding(2) var guide_previous: texture_2d<u32>;
-@group(0) @binding(3) var motion: texture_2d<f32>;
+@group(0) @binding(3) var motion: texture_2d<u32>;
 #ifdef OBJECTS
 @group(0) @binding(4) var object: texture_2d<u32>;
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
@@ -42,8 +42,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             if depth <= 0.0 {
                 continue;
             }
-            let m = textureLoad(motion, pixel, 0).xyz;
-            let previous = vec2<i32>(floor(vec2<f32>(pixel) + 0.5 + clamp(m.xy, vec2(-1e6), vec2(1e6))));
+            let m = unpack_motion(textureLoad(motion, pixel, 0).xy);
+            let previous = vec2<i32>(floor(vec2<f32>(pixel) + 0.5 + m.xy));
             if !inside(previous) {
                 continue;
             }

@@ -2,7 +2,7 @@
 
 #import asvgf::frame::{frame, inside, project, sample_point, world_position}
 #import asvgf::color::is_finite
-#import asvgf::packing::pack_normal
+#import asvgf::packing::{pack_motion, pack_normal}
 #ifdef OCTAHEDRAL_NORMALS
 #import asvgf::packing::octahedral
 #endif
@@ -33,7 +33,7 @@
 #endif
 // As visibility.wgsl writes them.
 @group(0) @binding(7) var guide_out: texture_storage_2d<rg32uint, write>;
-@group(0) @binding(8) var motion_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(8) var motion_out: texture_storage_2d<rg32uint, write>;
 
 // Where a point is put that had no place in the previous image: far outside.
 const NOWHERE: vec2<f32> = vec2(-1e9);
@@ -79,7 +79,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let placed = known && before > 0.0;
     let unit = n * inverseSqrt(max(squared, 1e-12));
     textureStore(guide_out, pixel, vec4(select(vec2(0u), vec2(pack_normal(unit), bitcast<u32>(z)), seen), 0u, 0u));
-    textureStore(motion_out, pixel, select(vec4(0.0), select(vec4(NOWHERE, 0.0, 0.0), vec4(m, before, 0.0), placed), vec4(seen)));
+    let moved = pack_motion(select(NOWHERE, m, placed), select(0.0, before, placed));
+    textureStore(motion_out, pixel, vec4(select(vec2(0u), moved, seen), 0u, 0u));
 #ifdef OBJECTS
 #ifdef FLOAT_OBJECTS
     // Only told apart, never computed with.

@@ -2,6 +2,9 @@
 // becomes part of the host's shader, reads them:
 //   place of the pixel that repeats, 1…9 (0: none) · last frame's pixel, x | y << 16 · that pixel's packed normal · its depth
 //   how far the surface has moved since, in world space
+//
+// The host's own numbers tell that, to their last bit: what the filter keeps of them is rounded, and a surface shaded beside
+// itself may shadow itself.
 
 #import asvgf::frame::{frame, project, sample_point, world_position}
 #import asvgf::packing::unpack_normal
@@ -11,6 +14,9 @@
 @group(0) @binding(2) var guide_previous: texture_2d<u32>;
 @group(0) @binding(3) var motion: texture_2d<f32>;
 @group(0) @binding(4) var repeats_out: texture_storage_2d<rgba32uint, write>;
+#ifdef PREVIOUS_DEPTH
+@group(0) @binding(5) var previous_depth: texture_2d<f32>;
+#endif
 
 // Whether a surface rests: a point that does shall be shaded at the same place to the last bit, so that its gradient is exactly 0,
 // though the host's motion is rounded. `moved` is how far that says it moved, `seen` where the last frame saw it.
@@ -41,10 +47,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let pixel = sample_pixel(record, stratum);
         let depth = bitcast<f32>(record.w);
         let point = sample_point(frame.camera, vec2<f32>(pixel));
-        let m = textureLoad(motion, pixel, 0).xyz;
         // The pixel's own surface tells how far its neighbour's has moved: exactly where it is shifted, and to a part of a pixel's
         // width where it turns.
         let now = world_position(frame.camera, point, depth);
+#ifdef PREVIOUS_DEPTH
+        let z = textureLoad(previous_depth, pixel, 0).x;
+#else
+        let z = project(frame.previous, now).z;
+#endif
+        let m = vec3(textureLoad(motion, pixel, 0).xy, z);
         let moved = now - world_position(frame.previous, point + m.xy, m.z);
         let q = previous_pixel(record);
         let before = textureLoad(guide_previous, q, 0).xy;

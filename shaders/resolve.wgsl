@@ -1,7 +1,7 @@
 // Puts the picture together again: filtered radiance times albedo, plus what the surface or the sky emits towards the camera.
 
 #import asvgf::frame::{frame, inside}
-#import asvgf::packing::{unpack_rgb, tap_color}
+#import asvgf::packing::{unpack_rgb, filtered_color}
 
 #ifdef UNFILTERED
 @group(0) @binding(1) var radiance: texture_2d<u32>;
@@ -9,6 +9,7 @@
 @group(0) @binding(1) var color: texture_2d<u32>;
 #ifdef BACKGROUND
 @group(0) @binding(7) var radiance: texture_2d<u32>;
+@group(0) @binding(8) var guide: texture_2d<u32>;
 #endif
 #endif
 #ifdef ALBEDO
@@ -37,11 +38,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef UNFILTERED
     let reflected = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
 #else
-    let tap = textureLoad(color, pixel, 0);
-    var reflected = tap_color(tap);
+    var reflected = filtered_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
     // Nothing was hit, so nothing was filtered: the host's sky.
-    if tap.w == 0u {
+    if textureLoad(guide, pixel, 0).y == 0u {
         reflected = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
     }
 #endif

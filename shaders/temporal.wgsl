@@ -5,8 +5,10 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_tap, pack_length_lambda, unpack_length}
-#ifndef STILL
+#ifdef STILL
+#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_length_lambda, unpack_length}
+#else
+#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_motion, unpack_normal, pack_length_lambda, unpack_length}
 #import asvgf::reproject::{Origin, origin_of, same_surface}
 #endif
 #ifdef EXTERNAL_LAMBDA
@@ -21,7 +23,7 @@
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 #ifndef STILL
-@group(0) @binding(3) var motion: texture_2d<f32>;
+@group(0) @binding(3) var motion: texture_2d<u32>;
 #endif
 #ifdef OBJECTS
 @group(0) @binding(4) var object: texture_2d<u32>;
@@ -43,11 +45,8 @@
 @group(0) @binding(10) var external_lambda: texture_2d<f32>;
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
-// What the spatial filter reads.
-@group(0) @binding(14) var color_out: texture_storage_2d<rgba32uint, write>;
 
-// What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had, and with
-// FEEDBACK three are written.
+// What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had.
 #ifdef STORAGE_READS
 @group(0) @binding(7) var history_previous: texture_storage_2d<rgba32uint, read>;
 
@@ -55,19 +54,11 @@ fn history_at(tap: vec2<i32>) -> vec4<u32> {
     return textureLoad(history_previous, tap);
 }
 #ifndef STILL
-#ifdef FEEDBACK
-@group(0) @binding(2) var guide_previous: texture_2d<u32>;
-
-fn guide_at(tap: vec2<i32>) -> vec2<u32> {
-    return textureLoad(guide_previous, tap, 0).xy;
-}
-#else
 @group(0) @binding(2) var guide_previous: texture_storage_2d<rg32uint, read>;
 
 fn guide_at(tap: vec2<i32>) -> vec2<u32> {
     return textureLoad(guide_previous, tap).xy;
 }
-#endif
 #endif
 #else
 @group(0) @binding(7) var history_previous: texture_2d<u32>;
@@ -144,7 +135,7 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
 }
 
 fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> History {
-    let point = clamp(vec2<f32>(pixel) + m.xy, vec2(-1e6), vec2(1e6));
+    let point = vec2<f32>(pixel) + m.xy;
     let corner = floor(point + 1e-4);
     let f = max(point - corner, vec2(0.0));
     let base = vec2<i32>(corner);
@@ -285,7 +276,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef STILL
         history = history_of(pixel);
 #else
-        let m = textureLoad(motion, pixel, 0).xyz;
+        let m = unpack_motion(textureLoad(motion, pixel, 0).xy);
 #ifdef OBJECTS
         let here = textureLoad(object, pixel, 0).x;
 #else
@@ -350,14 +341,4 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let kept_history = vec4(packed, bitcast<u32>(variance), pack_length_lambda(length, lambda));
 #endif
     textureStore(history_out, pixel, select(vec4(0u), kept_history, seen));
-#ifdef VARIANCE_OF_MEAN
-    // Bessel's correction while it matters, then the variance of a mean of n.
-    let bessel = select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
-    let guiding = variance * bessel / length;
-#else
-    let guiding = variance;
-#endif
-    // What is filtered is what was stored.
-    let stored = unpack_rgb(packed);
-    textureStore(color_out, pixel, select(vec4(0u), pack_tap(stored, sqrt(guiding), g), seen));
 }

@@ -1,5 +1,5 @@
-// While a pixel's history is short its own variance means little: it is estimated from the neighbours instead
-// (Schied et al. 2017, §4.2). Pixels with a longer history keep what temporal.wgsl wrote.
+// What the spatial filter starts from: the history's colour and how uncertain it is. While a pixel's history is short its own
+// variance means little: it is estimated from the neighbours instead (Schied et al. 2017, §4.2).
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
@@ -11,7 +11,7 @@
 #ifdef FEEDBACK
 @group(0) @binding(3) var feedback: texture_2d<u32>;
 #endif
-@group(0) @binding(4) var color_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(4) var color_out: texture_storage_2d<rg32uint, write>;
 
 // History length below which the variance is a spatial one.
 const SHORT: f32 = 4.0;
@@ -39,10 +39,9 @@ fn mean_luminance(h: vec4<u32>) -> f32 {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
     let h = textureLoad(history, pixel, 0);
+    // 0 where nothing was hit.
     let length = unpack_length(h.w);
-    if length <= 0.0 || length >= SHORT {
-        return;
-    }
+    let short = length > 0.0 && length < SHORT;
     let g = textureLoad(guide, pixel, 0).xy;
     let normal = unpack_normal(g.x);
     let plane = tangent_plane(vec2<f32>(pixel), normal, bitcast<f32>(g.y));
@@ -52,7 +51,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var second = 0.0;
     var weights = 0.0;
     // One loop, which is not unrolled: a software adapter executes a branch either way, but a loop of no invocation once.
-    for (var i = 0; i < 49; i++) {
+    let taps = select(0, 49, short);
+    for (var i = 0; i < taps; i++) {
         // i / 7 for i < 49.
         let row = (i * 37) >> 8u;
         let offset = vec2(i - 7 * row, row) - 3;
@@ -68,17 +68,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let mean = first / max(weights, 1e-6);
     // The fewer frames there are, the less the neighbours know either.
-    let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / length);
+    let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / max(length, 1.0));
 #ifdef VARIANCE_OF_MEAN
+    // Bessel's correction while it matters, then the variance of a mean of n.
     let own = bitcast<f32>(h.z) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
-    let variance = mix(spatial, own, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0)) / length;
+    let variance = mix(spatial, own, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0)) / max(length, 1.0);
 #else
-    let variance = spatial;
+    let variance = select(bitcast<f32>(h.z), spatial, short);
 #endif
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback, pixel, 0).xy);
 #else
     let color = unpack_rgb(h.xy);
 #endif
-    textureStore(color_out, pixel, pack_tap(color, sqrt(variance), g));
+    textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(color, sqrt(variance)), length > 0.0), 0u, 0u));
 }

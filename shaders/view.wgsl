@@ -2,7 +2,7 @@
 
 #import asvgf::frame::{frame, inside, project, sample_point, world_position}
 #import asvgf::color::{is_finite, luminance}
-#import asvgf::packing::{unpack_rgb, tap_color, unpack_normal, unpack_length, unpack_lambda}
+#import asvgf::packing::{unpack_rgb, filtered_color, unpack_motion, unpack_normal, unpack_length, unpack_lambda}
 #import asvgf::random::hash
 #if VIEW >= 17
 #import asvgf::strata::{is_sample_pixel, place_now, place_before, stratum_of}
@@ -13,6 +13,7 @@
 @group(0) @binding(1) var color: texture_2d<u32>;
 #ifdef BACKGROUND
 @group(0) @binding(2) var radiance: texture_2d<u32>;
+@group(0) @binding(5) var guide: texture_2d<u32>;
 #endif
 #endif
 #if VIEW == 1
@@ -40,12 +41,12 @@
 @group(0) @binding(6) var visibility: texture_2d<u32>;
 #endif
 #if VIEW == 6
-@group(0) @binding(7) var motion: texture_2d<f32>;
+@group(0) @binding(7) var motion: texture_2d<u32>;
 #endif
 #if VIEW == 14
 // Error of the motion.
 @group(0) @binding(5) var guide: texture_2d<u32>;
-@group(0) @binding(7) var motion: texture_2d<f32>;
+@group(0) @binding(7) var motion: texture_2d<u32>;
 #endif
 #if VIEW == 15
 @group(0) @binding(4) var emission: texture_2d<u32>;
@@ -103,10 +104,9 @@ struct Show {
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
 #if VIEW == 0
-    let tap = textureLoad(color, pixel, 0);
-    var c = tap_color(tap);
+    var c = filtered_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
-    if tap.w == 0u {
+    if textureLoad(guide, pixel, 0).y == 0u {
         c = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
     }
 #endif
@@ -144,7 +144,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(f32(id & 0xffffu), f32(id >> 16u), select(1.0, 0.0, id == 0xffffffffu));
 #endif
 #if VIEW == 6
-    return textureLoad(motion, pixel, 0).xyz;
+    return unpack_motion(textureLoad(motion, pixel, 0).xy);
 #endif
 #if VIEW == 7
 #ifdef UNCHANGED
@@ -174,7 +174,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(bitcast<f32>(textureLoad(history, pixel, 0).z));
 #endif
 #if VIEW == 12
-    let c = tap_color(textureLoad(color, pixel, 0));
+    let c = filtered_color(textureLoad(color, pixel, 0).xy);
     let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z);
     return vec3(select(1.0, 0.0, ok));
 #endif
@@ -186,7 +186,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     let point = sample_point(frame.camera, vec2<f32>(pixel));
     let rest = project(frame.previous, world_position(frame.camera, point, depth));
     let implied = vec3(rest.xy - point, rest.z);
-    return select(vec3(0.0), textureLoad(motion, pixel, 0).xyz - implied, depth > 0.0 && rest.z > 0.0);
+    return select(vec3(0.0), unpack_motion(textureLoad(motion, pixel, 0).xy) - implied, depth > 0.0 && rest.z > 0.0);
 #endif
 #if VIEW == 15
     return unpack_rgb(textureLoad(emission, pixel, 0).xy);

@@ -12,13 +12,13 @@
 #endif
 #import asvgf::surface::{Visible, visibility_id, triangle_now, triangle_before, barycentrics, at, geometric_normal, shading_normal}
 #import asvgf::scene::NO_TRIANGLE
-#import asvgf::packing::pack_normal
+#import asvgf::packing::{pack_motion, pack_normal}
 
 @group(0) @binding(1) var visibility_out: texture_storage_2d<r32uint, write>;
 // Packed world normal; linear depth (f32 bits), 0 where nothing was hit.
 @group(0) @binding(2) var guide_out: texture_storage_2d<rg32uint, write>;
 // Previous − current position in pixels (x right, y down), then the depth that the point had in the previous camera.
-@group(0) @binding(3) var motion_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(3) var motion_out: texture_storage_2d<rg32uint, write>;
 #ifdef INSTANCED
 @group(0) @binding(4) var object_out: texture_storage_2d<r32uint, write>;
 #endif
@@ -37,7 +37,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var id_seen = NO_TRIANGLE;
     var object = NO_TRIANGLE;
     var guide = vec2(0u);
-    var motion = vec3(0.0);
+    var motion = vec2(0u);
     if hit.triangle != NO_TRIANGLE {
         let v = Visible(hit.triangle, hit.instance);
         let now = triangle_now(v);
@@ -49,11 +49,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         object = hit.instance;
         guide = vec2(pack_normal(normal), bitcast<u32>(here.z));
         // A point that was behind the previous camera has no place in its image: far outside.
-        motion = vec3(select(vec2(-1e9), before.xy - here.xy, before.z > 0.0), before.z);
+        motion = pack_motion(select(vec2(-1e9), before.xy - here.xy, before.z > 0.0), before.z);
     }
     textureStore(visibility_out, pixel, vec4(id_seen));
     textureStore(guide_out, pixel, vec4(guide, 0u, 0u));
-    textureStore(motion_out, pixel, vec4(motion, 0.0));
+    textureStore(motion_out, pixel, vec4(motion, 0u, 0u));
 #ifdef INSTANCED
     textureStore(object_out, pixel, vec4(object));
 #endif

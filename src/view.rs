@@ -19,7 +19,8 @@ pub enum View {
     Depth = 4,
     /// Number of the triangle: low 16 bits in red, high 16 in green; blue is 0 where nothing was hit. Picture: one colour each.
     TriangleId = 5,
-    /// Previous − current position in pixels in red and green, the point's previous depth in blue. Picture: grey is none.
+    /// Previous − current position in pixels in red and green, in steps of 1/256 (−10⁶: nowhere), the point's previous depth in
+    /// blue. Picture: grey is none.
     Motion = 6,
     /// λ of each stratum before interpolation, 0…1.
     Gradient = 7,
@@ -37,7 +38,7 @@ pub enum View {
     /// [`ViewOptions::range`].
     Rays = 13,
     /// The host's motion less the motion that depth and both cameras imply for a point at rest: pixels in red and green, the
-    /// difference of the previous depths in blue. Zero but for objects that move; if the whole image changes with the camera, a
+    /// difference of the previous depths in blue. Zero to 1/512 pixel but for objects that move; if the whole image changes with the camera, a
     /// sign, a unit or a matrix is wrong. Picture: grey is none.
     MotionError = 14,
     /// Linear radiance that the visible surface or the sky emits towards the eye. Picture: tone-mapped.

@@ -36,22 +36,30 @@ fn unpack_unsigned(bits: u32) -> f32 {
     return bitcast<f32>(bits << 13u) * 7.922816e28;
 }
 
-// What the spatial filter reads of a tap, in one texel: colour, standard deviation of its luminance, packed normal, depth.
-fn pack_tap(color: vec3<f32>, deviation: f32, normal_depth: vec2<u32>) -> vec4<u32> {
-    return vec4(
+// What the spatial filter carries from one iteration to the next: colour and standard deviation of its luminance.
+fn pack_tap(color: vec3<f32>, deviation: f32) -> vec2<u32> {
+    return vec2(
         pack_unsigned(color.x) | (pack_unsigned(color.y) << 16u),
         pack_unsigned(color.z) | (pack_unsigned(deviation) << 16u),
-        normal_depth,
     );
 }
 
-fn tap_color(tap: vec4<u32>) -> vec3<f32> {
+fn tap_color(tap: vec2<u32>) -> vec3<f32> {
     return vec3(unpack_unsigned(tap.x & 0xffffu), unpack_unsigned(tap.x >> 16u), unpack_unsigned(tap.y & 0xffffu));
 }
 
-fn tap_variance(tap: vec4<u32>) -> f32 {
+fn tap_variance(tap: vec2<u32>) -> f32 {
     let deviation = unpack_unsigned(tap.y >> 16u);
     return deviation * deviation;
+}
+
+// The filtered colour, in the format of the image in which the last pass of the filter left it.
+fn filtered_color(texel: vec2<u32>) -> vec3<f32> {
+#ifdef TEMPORAL_ONLY
+    return unpack_rgb(texel);
+#else
+    return tap_color(texel);
+#endif
 }
 
 // A unit vector as three signed 10-bit numbers (0.06° at worst). Unlike an octahedral map it needs no normalisation and
@@ -81,6 +89,27 @@ fn octahedral(e: vec2<f32>) -> vec3<f32> {
     let z = 1.0 - abs(e.x) - abs(e.y);
     let fold = max(-z, 0.0);
     return normalize(vec3(e - select(vec2(-fold), vec2(fold), e >= vec2(0.0)), z));
+}
+
+// Motion beyond this, in pixels, is stored as one that leads out of every image. 4096 is what 21 bits with a sign reach in steps
+// of 1/256.
+const FARTHEST: f32 = 4095.5;
+
+// Motion in steps of 1/256 pixel (21 bits each), and the depth that the point had, as f32 without its sign and with 14 bits of
+// mantissa: 64 bits. A reprojected history is interpolated between pixels, which blurs a thousand times more than that rounds;
+// no motion is exactly none.
+fn pack_motion(motion: vec2<f32>, depth: f32) -> vec2<u32> {
+    let near = all(abs(motion) < vec2(FARTHEST));
+    let q = vec2<u32>(vec2<i32>(round(select(vec2(-4096.0), motion, near) * 256.0))) & vec2(0x1fffffu);
+    let z = (bitcast<u32>(clamp(depth, 0.0, 3e38)) + 0x100u) >> 9u;
+    return vec2(q.x | (q.y << 21u), (q.y >> 11u) | (z << 10u));
+}
+
+fn unpack_motion(bits: vec2<u32>) -> vec3<f32> {
+    let q = vec2<i32>(vec2(bits.x << 11u, ((bits.x >> 10u) & 0x3ff800u) | (bits.y << 22u))) >> vec2(11u);
+    let motion = vec2<f32>(q) * (1.0 / 256.0);
+    let depth = bitcast<f32>((bits.y >> 10u) << 9u);
+    return vec3(select(motion, vec2(-1e6), motion.x == -4096.0), depth);
 }
 
 // The nearest numbers with the 10-bit mantissa of f16, for values of f16's normal range: an rgba16float texture then holds

@@ -17,6 +17,7 @@ const SHARED: &[(&str, &str)] = &[
     ("strata", include_str!("../../shaders/shared/strata.wgsl")),
     ("edge_stop", include_str!("../../shaders/shared/edge_stop.wgsl")),
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
+    ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("scene", include_str!("../../shaders/shared/scene.wgsl")),

@@ -20,6 +20,7 @@ pub(crate) fn step(features: Features, iteration: u32) -> Step {
         bindings: bindings(
             features,
             [
+                ("guide", Slot::Now(Image::Guide), &[]),
                 ("color", Slot::Now(Image::Color(from)), &[]),
                 ("color_out", Slot::Now(Image::Color(1 - from)), &[]),
                 ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),

@@ -19,7 +19,6 @@ pub(crate) fn step(features: Features, pairs: u8) -> Step {
             ("visibility_previous", Slot::Before(Image::Visibility), &[Feature::BlinnPhong]),
             ("now_filtered", Slot::Now(Image::PairsNow(pairs)), &[Feature::HistoryRatio]),
             ("before_filtered", Slot::Now(Image::PairsBefore(pairs)), &[Feature::HistoryRatio]),
-            ("product_filtered", Slot::Now(Image::PairsProduct(pairs)), &[Feature::HistoryRatio]),
             ("ratio_out", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
             ("gradient_out", Slot::Now(Image::Gradient(0)), &[]),
         ],

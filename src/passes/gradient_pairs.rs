@@ -26,7 +26,6 @@ pub(crate) fn step(features: Features) -> Step {
             ("radiance_previous", before),
             ("now_out", Slot::Now(Image::PairsNow(0))),
             ("before_out", Slot::Now(Image::PairsBefore(0))),
-            ("product_out", Slot::Now(Image::PairsProduct(0))),
         ],
     }
 }

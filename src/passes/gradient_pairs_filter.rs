@@ -15,10 +15,8 @@ pub(crate) fn step(_: Features, iteration: u32) -> Step {
             ("samples", Slot::Now(Image::Samples)),
             ("now", Slot::Now(Image::PairsNow(from))),
             ("before", Slot::Now(Image::PairsBefore(from))),
-            ("product", Slot::Now(Image::PairsProduct(from))),
             ("now_out", Slot::Now(Image::PairsNow(to))),
             ("before_out", Slot::Now(Image::PairsBefore(to))),
-            ("product_out", Slot::Now(Image::PairsProduct(to))),
         ],
     }
 }

@@ -5,6 +5,7 @@ use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
 const FEATURES: &[Feature] = &[
     Feature::Unfiltered,
+    Feature::TemporalOnly,
     Feature::Background,
     Feature::Albedo,
     Feature::DirectEmission,
@@ -19,6 +20,7 @@ pub(crate) fn step(features: Features, color: Option<Image>) -> Step {
         features,
         [
             ("radiance", Slot::Now(Image::Radiance), &[Feature::Background]),
+            ("guide", Slot::Now(Image::Guide), &[Feature::Background]),
             ("albedo", Slot::Now(Image::Albedo), &[Feature::Albedo]),
             ("emission", Slot::Now(Image::Emission), &[Feature::DirectEmission]),
             ("sum_previous", Slot::Before(Image::Sum), &[Feature::Accumulate]),

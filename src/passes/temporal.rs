@@ -14,7 +14,6 @@ const FEATURES: &[Feature] = &[
     Feature::Confidence,
     Feature::BlendByLambda,
     Feature::Feedback,
-    Feature::VarianceOfMean,
 ];
 
 /// What finds the surface in the last frame.
@@ -44,7 +43,6 @@ pub(crate) fn step(features: Features, gradient: Option<Image>) -> Step {
             ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
             ("external_lambda", Slot::Host, &[Feature::ExternalLambda]),
             ("history_out", Slot::Now(Image::History), &[]),
-            ("color_out", Slot::Now(Image::Color(0)), &[]),
         ],
     );
     bindings.retain(|(name, _)| !(features.has(Feature::Still) && REPROJECTION.contains(name)));

@@ -58,10 +58,20 @@ pub(crate) fn step(
         View::PairBefore => before,
         _ => Slot::Now(Image::Radiance),
     };
-    let known = [Feature::Albedo, Feature::DirectEmission, Feature::Background, Feature::BlendByLambda, Feature::Pairs];
+    let known = [
+        Feature::TemporalOnly,
+        Feature::Albedo,
+        Feature::DirectEmission,
+        Feature::Background,
+        Feature::BlendByLambda,
+        Feature::Pairs,
+    ];
     let mut features = plan.features.and(Features::of(&known));
     if !matches!(view, View::Denoised | View::Noisy | View::Emission) {
         features = features.without(Feature::DirectEmission);
+    }
+    if !matches!(view, View::Denoised | View::NonFinite) {
+        features = features.without(Feature::TemporalOnly);
     }
     if view != View::Denoised {
         features = features.without(Feature::Background);
@@ -101,7 +111,7 @@ pub(crate) fn step(
         ],
     );
     let names: &[&str] = match view {
-        View::Denoised if features.has(Feature::Background) => &["color", "radiance", "albedo", "emission"],
+        View::Denoised if features.has(Feature::Background) => &["color", "radiance", "guide", "albedo", "emission"],
         View::Denoised => &["color", "albedo", "emission"],
         View::Noisy => &["radiance", "albedo", "emission"],
         View::Albedo | View::Rays => &["albedo"],

@@ -85,7 +85,7 @@ fn with_filter(rows: &[Row], pairs_in_place: bool, settings: &Settings, changes:
         Mode::Denoise => filter(&settings.filter, pairs_in_place, changes),
         Mode::Noisy | Mode::Reference => Vec::new(),
     };
-    rows.iter().chain(&filter).map(|&(feature, on, reasons)| Decision::feature(feature, on, reasons)).collect()
+    rows.iter().chain(&filter).map(|&(feature, on, reasons)| Decision::new(feature, on, reasons)).collect()
 }
 
 fn filter(filter: &FilterSettings, pairs_in_place: bool, changes: Changes) -> Vec<Row> {
@@ -124,6 +124,11 @@ fn filter(filter: &FilterSettings, pairs_in_place: bool, changes: Changes) -> Ve
             ["the history is rescaled by what paths show", why_not],
         ),
         (BlendByLambda, filter.blend == Blend::Lambda, ["α' = (1 − λ)·α + λ is set", "α' = 1/n is set"]),
+        (
+            TemporalOnly,
+            !spatial,
+            ["no spatial iteration is set: no variance, no taps", "the settings filter in space too"],
+        ),
         (
             Feedback,
             spatial && filter.feedback,

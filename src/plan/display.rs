@@ -27,7 +27,7 @@ impl fmt::Display for Plan {
         for (title, included) in [("In, and why", true), ("Left out, and why", false)] {
             writeln!(f, "\n{title}")?;
             for decision in self.decisions.iter().filter(|d| d.included == included) {
-                writeln!(f, "    {:<22}{}", decision.subject.to_string(), decision.reason)?;
+                writeln!(f, "    {decision}")?;
             }
         }
         Ok(())

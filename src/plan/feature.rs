@@ -66,6 +66,8 @@ features! {
     Feedback,
     /// The variance is that of the mean.
     VarianceOfMean,
+    /// Nothing is filtered in space: the history's colour is the picture's.
+    TemporalOnly,
     /// The first of the spatial iterations.
     FirstIteration,
     /// The published edge stops.

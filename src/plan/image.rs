@@ -24,7 +24,7 @@ pub enum Image {
     History,
     /// The history's colour, where it comes from the spatial filter.
     Feedback,
-    /// Colour, variance, normal and depth between spatial iterations; two take turns.
+    /// Colour and deviation between spatial iterations; two take turns.
     Color(u8),
     /// Records of the strata.
     Samples,
@@ -34,12 +34,10 @@ pub enum Image {
     PairNow,
     /// The radiance before of that pair.
     PairBefore,
-    /// Radiances now of the gradient's pairs; two take turns while they are filtered.
+    /// Radiances now of the gradient's pairs, and products; two take turns while they are filtered.
     PairsNow(u8),
     /// Radiances before.
     PairsBefore(u8),
-    /// Products of both.
-    PairsProduct(u8),
     /// Numerator and denominator of λ on the stratum's surface, and on any; two take turns.
     Gradient(u8),
     /// What the history is multiplied with.
@@ -62,16 +60,19 @@ impl Image {
     pub fn format(self) -> TextureFormat {
         match self {
             Self::Visibility | Self::Object => TextureFormat::R32Uint,
-            Self::Guide | Self::Radiance | Self::Emission | Self::Feedback | Self::PairNow | Self::PairBefore => {
-                TextureFormat::Rg32Uint
+            Self::Guide
+            | Self::Motion
+            | Self::Radiance
+            | Self::Emission
+            | Self::Feedback
+            | Self::Color(_)
+            | Self::PairNow
+            | Self::PairBefore => TextureFormat::Rg32Uint,
+            Self::History | Self::Samples | Self::Repeats | Self::PairsNow(_) | Self::PairsBefore(_) => {
+                TextureFormat::Rgba32Uint
             }
-            Self::History | Self::Samples | Self::Repeats | Self::Color(_) => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
-            Self::PairsProduct(_) => TextureFormat::R32Float,
-            Self::Gradient(_) => TextureFormat::Rgba32Float,
-            Self::Motion | Self::PairsNow(_) | Self::PairsBefore(_) | Self::Ratio | Self::Sum => {
-                TextureFormat::Rgba32Float
-            }
+            Self::Gradient(_) | Self::Ratio | Self::Sum => TextureFormat::Rgba32Float,
         }
     }
 
@@ -84,7 +85,6 @@ impl Image {
             | Self::PairBefore
             | Self::PairsNow(_)
             | Self::PairsBefore(_)
-            | Self::PairsProduct(_)
             | Self::Gradient(_)
             | Self::Ratio => Grid::Strata,
             _ => Grid::Pixels,
@@ -118,8 +118,6 @@ impl Image {
             Self::PairsNow(_) => "pairs now 1",
             Self::PairsBefore(0) => "pairs before 0",
             Self::PairsBefore(_) => "pairs before 1",
-            Self::PairsProduct(0) => "pairs product 0",
-            Self::PairsProduct(_) => "pairs product 1",
             Self::Gradient(0) => "gradient 0",
             Self::Gradient(_) => "gradient 1",
             Self::Ratio => "ratio",

@@ -15,7 +15,7 @@ mod memory;
 mod traits;
 
 pub use changes::Changes;
-pub use decision::{Decision, Subject};
+pub use decision::Decision;
 pub use feature::{Feature, Features};
 pub use image::{Grid, Image};
 pub(crate) use memory::{Kind, Memory};
@@ -125,12 +125,9 @@ impl Plan {
     /// No steps yet, for these decisions.
     fn of(mut decisions: Vec<Decision>, target: TextureFormat) -> Self {
         let narrow = target == TextureFormat::Rgba16Float;
-        decisions.push(Decision::feature(Feature::TargetF16, narrow, ["the target is 16-bit", "the target is 32-bit"]));
-        let features = decisions.iter().filter(|d| d.included).filter_map(|d| match d.subject {
-            Subject::Feature(feature) => Some(feature),
-            Subject::Pass(_) => None,
-        });
-        Self { steps: Vec::new(), features: features.collect(), decisions, color: None, gradient: None }
+        decisions.push(Decision::new(Feature::TargetF16, narrow, ["the target is 16-bit", "the target is 32-bit"]));
+        let features = decisions.iter().filter(|d| d.included).map(|d| d.feature).collect();
+        Self { steps: Vec::new(), features, decisions, color: None, gradient: None }
     }
 
     /// Whether the mean goes on over all frames there were, however many: nothing changed, and α is adaptive.
@@ -163,14 +160,11 @@ impl Plan {
             self.gradient = Some(Image::Gradient((iterations % 2) as u8));
         }
         self.steps.push(passes::temporal::step(features, self.gradient));
-        let spatial = filter.iterations > 0;
-        let why = ["its iterations filter in space", "the settings ask for no spatial iteration"];
-        let guided = ["it guides the spatial iterations", "there is no spatial iteration to guide"];
-        self.decisions.push(Decision::pass(Pass::Variance, spatial, guided));
-        self.decisions.push(Decision::pass(Pass::Atrous, spatial, why));
-        if spatial {
-            self.steps.push(passes::variance::step(features));
+        if features.has(Feature::TemporalOnly) {
+            self.color = Some(Image::History);
+            return;
         }
+        self.steps.push(passes::variance::step(features));
         self.steps.extend((0..filter.iterations).map(|i| passes::atrous::step(features, i)));
         self.color = Some(Image::Color((filter.iterations % 2) as u8));
     }
@@ -180,7 +174,7 @@ impl Plan {
         self.steps = self.steps.into_iter().map(Step::on_cpu).collect();
         let reads = self.steps.iter().any(|step| step.features.has(Feature::StorageReads));
         let why = ["the adapter is the CPU: cheaper there than texture fetches", ""];
-        self.decisions.extend(reads.then(|| Decision::feature(Feature::StorageReads, true, why)));
+        self.decisions.extend(reads.then(|| Decision::new(Feature::StorageReads, true, why)));
         self
     }
 

@@ -40,6 +40,25 @@ pub(super) fn unpack_unsigned(bits: u32) -> f64 {
     }
 }
 
+/// In steps of 1/256 pixel, 21 bits each with a sign; what is too far leads nowhere. The depth has 14 bits of mantissa.
+pub(super) fn pack_motion(m: V) -> [u32; 2] {
+    let near = m[..2].iter().all(|c| c.abs() < 4095.5);
+    let q = [0, 1].map(|i| if near { (m[i] * 256.0).round_ties_even() as i64 } else { -(1 << 20) });
+    let [x, y] = q.map(|q| q as u64 & 0x1f_ffff);
+    let z = if m[2] > 0.0 { (u64::from(word(m[2])) + 256) >> 9 } else { 0 };
+    let bits = x | y << 21 | z << 42;
+    [bits as u32, (bits >> 32) as u32]
+}
+
+pub(super) fn unpack_motion(words: [u32; 2]) -> V {
+    let bits = i64::from(words[0]) | i64::from(words[1]) << 32;
+    let z = f64::from(f32::from_bits(((bits as u64 >> 42) as u32) << 9));
+    match [bits << 43 >> 43, bits << 22 >> 43] {
+        [q, _] if q == -(1 << 20) => [-1e6, -1e6, z],
+        [x, y] => [x as f64 / 256.0, y as f64 / 256.0, z],
+    }
+}
+
 pub(super) fn pack_normal(n: V) -> u32 {
     let q = n.map(|x| ((x * 511.0).round() as i32 & 0x3ff) as u32);
     q[0] | q[1] << 10 | q[2] << 20
@@ -50,9 +69,9 @@ pub(super) fn unpack_normal(bits: u32) -> V {
 }
 
 /// Colour and standard deviation.
-pub(super) fn pack_tap(color: V, deviation: f64, guide: [u32; 2]) -> Texel {
+pub(super) fn pack_tap(color: V, deviation: f64) -> [u32; 2] {
     let [r, g, b] = color.map(pack_unsigned);
-    [r | g << 16, b | pack_unsigned(deviation) << 16, guide[0], guide[1]]
+    [r | g << 16, b | pack_unsigned(deviation) << 16]
 }
 
 pub(super) fn unpack_tap(t: Texel) -> (V, f64) {

@@ -45,6 +45,37 @@ impl Images {
     }
 }
 
+/// Filtered pairs of a stratum: colour and l² now and before, l·l'.
+type Pairs = ([f64; 4], [f64; 4], f64);
+
+/// As two texels: f, l², l·l'; f', l'².
+fn pack_pairs((now, before, product): &Pairs) -> [Texel; 2] {
+    let texel = |p: &[f64; 4], last: f64| {
+        let [a, b] = pack_rgb([p[0], p[1], p[2]]);
+        [a, b, word(p[3]), word(last)]
+    };
+    [texel(now, *product), texel(before, 0.0)]
+}
+
+fn unpack_pairs([now, before]: [Texel; 2]) -> Pairs {
+    let four = |t: Texel| {
+        let [r, g, b] = unpack_rgb([t[0], t[1]]);
+        [r, g, b, float(t[2])]
+    };
+    (four(now), four(before), float(now[3]))
+}
+
+/// Pairs of very different sizes.
+fn some_pairs(count: usize, random: &mut Random) -> Vec<Pairs> {
+    let mut number = || 10.0_f64.powf(random.between(-6.0, 4.0));
+    (0..count).map(|_| ([0; 4].map(|_| number()), [0; 4].map(|_| number()), number())).collect()
+}
+
+/// Both images of pairs.
+fn texels(pairs: &[Pairs]) -> [Vec<Texel>; 2] {
+    [0, 1].map(|which| pairs.iter().map(|p| pack_pairs(p)[which]).collect())
+}
+
 /// Random strata of four numbers, of very different sizes.
 fn numbers(count: usize, random: &mut Random) -> Vec<Texel> {
     (0..count).map(|_| [0; 4].map(|_| word(10.0_f64.powf(random.between(-6.0, 4.0))))).collect()
@@ -64,17 +95,15 @@ fn pairs_are_what_one_path_brought_now_and_before() {
             let i = images.bench.stratum(x, y).unwrap();
             let (now, before) = images.pair(x, y).unwrap_or_default();
             let (l, l_before) = (luminance(now), luminance(before));
-            let expected = [
-                ("now_out", [now[0], now[1], now[2], l * l]),
-                ("before_out", [before[0], before[1], before[2], l_before * l_before]),
-                ("product_out", [l * l_before, 0.0, 0.0, 0.0]),
-            ];
-            for (name, expected) in expected {
-                for (channel, expected) in expected.into_iter().enumerate() {
-                    let found = float(written[name][i][channel]);
-                    assert_close(found, expected, 1e-6 * expected, || format!("{size:?} ({x}, {y}), {name}"));
-                }
+            let found = unpack_pairs([written["now_out"][i], written["before_out"][i]]);
+            let what = || format!("{size:?} ({x}, {y})");
+            for (found, (color, square)) in
+                [found.0, found.1].into_iter().zip([(now, l * l), (before, l_before.powi(2))])
+            {
+                assert_eq!(found[..3], color, "{}", what());
+                assert_close(found[3], square, 1e-6 * square, what);
             }
+            assert_close(found.2, l * l_before, 1e-6 * l * l_before, what);
         }
     }
 }
@@ -86,53 +115,49 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
             let images = Images::new(size, Settings::adaptive(), 5);
             let count = images.records.len();
             let mut random = Random(6);
-            let [now, before, product, gradient] = [0; 4].map(|_| numbers(count, &mut random));
-            let pairs = [
-                ("samples", images.records.clone()),
-                ("now", now.clone()),
-                ("before", before.clone()),
-                ("product", product.clone()),
-            ];
-            let mut written = images.bench.run(&gradient_pairs_filter::step(Features::default(), iteration), &pairs);
+            let pairs = some_pairs(count, &mut random);
+            let gradient = numbers(count, &mut random);
+            let [now, before] = texels(&pairs);
+            let inputs = [("samples", images.records.clone()), ("now", now.clone()), ("before", before.clone())];
+            let mut written = images.bench.run(&gradient_pairs_filter::step(Features::default(), iteration), &inputs);
             let inputs = [("samples", images.records.clone()), ("gradient", gradient.clone())];
             let across = Features::of(&[Feature::AcrossSurfaces]);
             written.append(&mut images.bench.run(&gradient_filter::step(across, iteration), &inputs));
-            let outputs = [
-                ("now_out", &now, 4),
-                ("before_out", &before, 4),
-                ("product_out", &product, 1),
-                ("gradient_out", &gradient, 4),
-            ];
+            // All thirteen numbers of a stratum: both colours with their squares, the product, the gradient.
+            let all = |now: &[Texel], before: &[Texel], gradient: &[Texel], i: usize| -> Vec<f64> {
+                let (n, b, product) = unpack_pairs([now[i], before[i]]);
+                n.into_iter().chain(b).chain([product]).chain(gradient[i].map(float)).collect()
+            };
+            let given: Vec<Vec<f64>> = (0..count).map(|i| all(&now, &before, &gradient, i)).collect();
             for (x, y) in images.bench.strata() {
                 let i = images.bench.stratum(x, y).unwrap();
                 let taps = match images.records[i][0] {
                     0 => Vec::new(),
                     _ => images.bench.strata_taps(&images.records, x, y, 1 << iteration),
                 };
-                for (name, input, channels) in outputs {
-                    for channel in 0..channels {
-                        // The gradient's last two channels are those of any surface.
-                        let blind = usize::from(name == "gradient_out" && channel >= 2);
-                        let weight: f64 = taps.iter().map(|t| t.1[blind]).sum::<f64>().max(1.0);
-                        let value = |&(tap, w): &(usize, [f64; 2])| {
-                            (w[blind] * float(input[tap][channel]), float(input[tap][channel]))
-                        };
-                        let expected = taps.iter().map(|t| value(t).0).sum::<f64>() / weight;
-                        // Exponents are known to some 1e-4; whether a weight of e⁻⁸ is cut may differ: 1e-4 of the largest.
-                        let largest = taps.iter().map(|t| value(t).1).fold(0.0, f64::max);
-                        let found = float(written[name][i][channel]);
-                        assert_close(found, expected, 2e-4 * largest, || {
-                            format!("{size:?} ({x}, {y}), {name}, {iteration}")
-                        });
-                    }
+                let found = all(&written["now_out"], &written["before_out"], &written["gradient_out"], i);
+                for (channel, &found) in found.iter().enumerate() {
+                    // The gradient's last two numbers are those of any surface.
+                    let blind = usize::from(channel >= 11);
+                    let weight: f64 = taps.iter().map(|t| t.1[blind]).sum::<f64>().max(1.0);
+                    let mean = |c: usize| taps.iter().map(|t| t.1[blind] * given[t.0][c]).sum::<f64>() / weight;
+                    // Exponents are known to some 1e-4; whether a weight of e⁻⁸ is cut may differ: 1e-4 of the largest.
+                    let largest = taps.iter().map(|t| given[t.0][channel]).fold(0.0, f64::max);
+                    // Colours have 18 bits of the largest channel.
+                    let brightest = match channel {
+                        0..=2 => (0..3).map(mean).fold(0.0, f64::max),
+                        4..=6 => (4..7).map(mean).fold(0.0, f64::max),
+                        _ => 0.0,
+                    };
+                    let tolerance = 2e-4 * largest + brightest * 2.0_f64.powi(-17);
+                    assert_close(found, mean(channel), tolerance, || {
+                        format!("{size:?} ({x}, {y}), number {channel}, {iteration}")
+                    });
                 }
             }
         }
     }
 }
-
-/// Filtered pairs of a stratum: colour and l² now and before, l·l'.
-type Pairs = ([f64; 4], [f64; 4], f64);
 
 /// ρ for red, green, blue and luminance, from the filtered pairs: a prior of 5 %, colour within 1½ of the luminance's, shrunk
 /// towards 1 by the ratio's own variance with 90 samples, within ¼…4.
@@ -180,17 +205,14 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                     )
                 })
                 .collect();
-            let texels =
-                |f: &dyn Fn(&Pairs) -> [f64; 4]| -> Vec<Texel> { filtered.iter().map(|p| f(p).map(word)).collect() };
             let mut inputs = vec![
                 ("samples", images.records.clone()),
                 ("radiance", images.radiance.clone()),
                 ("radiance_previous", images.before.clone()),
             ];
             if with_ratio {
-                inputs.push(("now_filtered", texels(&|p| p.0)));
-                inputs.push(("before_filtered", texels(&|p| p.1)));
-                inputs.push(("product_filtered", texels(&|p| [p.2; 4])));
+                let [now, before] = texels(&filtered);
+                inputs.extend([("now_filtered", now), ("before_filtered", before)]);
             }
             let mut features = if with_ratio { Features::of(&[Feature::HistoryRatio]) } else { Features::default() };
             if signed {
@@ -202,10 +224,9 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 let what = || format!("{size:?} ({x}, {y}), γ {gamma}, ratio {with_ratio}");
                 let (rho, beyond, brighter) = match images.pair(x, y) {
                     Some(_) if with_ratio => {
-                        let (now, before, product) = filtered[i];
-                        // What the textures hold is f32.
-                        let narrow = |p: [f64; 4]| p.map(|v| f64::from(v as f32));
-                        ratio(narrow(now), narrow(before), f64::from(product as f32))
+                        // What the textures hold.
+                        let (now, before, product) = unpack_pairs(pack_pairs(&filtered[i]));
+                        ratio(now, before, product)
                     }
                     _ => ([1.0; 4], 0.0, 0.0),
                 };
@@ -257,7 +278,7 @@ fn a_hosts_pairs_go_the_same_way() {
             };
             strata.iter().map(|s| texel(s).unwrap_or_default()).collect()
         });
-        let filtered = numbers(strata.len(), &mut Random(13));
+        let filtered = texels(&some_pairs(strata.len(), &mut Random(13)));
         let run = |pairs: bool| {
             let (features, now, before) = if pairs {
                 (Features::of(&[Feature::Pairs]), &now, &before)
@@ -270,9 +291,7 @@ fn a_hosts_pairs_go_the_same_way() {
                 ("radiance_previous", before.clone()),
             ];
             let mut written = images.bench.run(&gradient_pairs::step(features), &inputs);
-            for name in ["now_filtered", "before_filtered", "product_filtered"] {
-                inputs.push((name, filtered.clone()));
-            }
+            inputs.extend(["now_filtered", "before_filtered"].into_iter().zip(filtered.clone()));
             written.append(&mut images.bench.run(&gradient::step(features.with(Feature::HistoryRatio), 0), &inputs));
             written
         };
@@ -291,14 +310,14 @@ fn where_nothing_changed_the_ratio_is_exactly_one_and_the_gradient_exactly_zero(
         // The same pixel before, so that both radiances are the same bits.
         images.records[i][1] = px as u32 | (py as u32) << 16;
     }
-    let same: Vec<Texel> = numbers(strata.len(), &mut Random(11));
+    let same = some_pairs(strata.len(), &mut Random(11)).into_iter().map(|(now, ..)| (now, now, now[3]));
+    let [now, before] = texels(&same.collect::<Vec<_>>());
     let inputs = [
         ("samples", images.records.clone()),
         ("radiance", images.radiance.clone()),
         ("radiance_previous", images.before.clone()),
-        ("now_filtered", same.clone()),
-        ("before_filtered", same.clone()),
-        ("product_filtered", same.iter().map(|t| [t[3]; 4]).collect()),
+        ("now_filtered", now),
+        ("before_filtered", before),
     ];
     let written = images.bench.run(&gradient::step(Features::of(&[Feature::HistoryRatio]), 0), &inputs);
     assert!(written["ratio_out"].iter().flatten().all(|&w| w == 1.0_f32.to_bits()));

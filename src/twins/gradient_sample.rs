@@ -1,24 +1,25 @@
 //! The choice of each stratum's gradient sample.
 
 use super::bench::{Bench, SIZES, Texel};
-use super::codec::{depth, unpack_normal, word};
+use super::codec::{depth, pack_motion, unpack_motion, unpack_normal, word};
 use super::plane::{Pinhole, dot, sub};
 use super::random::Random;
 use crate::Settings;
 use crate::passes::gradient_sample;
 use crate::plan::{Feature, Features};
 
+/// Texels of two words.
 fn guides(guide: &[[u32; 2]]) -> Vec<Texel> {
     guide.iter().map(|g| [g[0], g[1], 0, 0]).collect()
 }
 
 /// Records of a static view, frame after frame.
 fn choose(bench: &Bench, guide: &[[u32; 2]], before: &[Texel]) -> Vec<Texel> {
-    let motion = guide.iter().map(|g| [0, 0, g[1], 0]).collect();
+    let motion: Vec<[u32; 2]> = guide.iter().map(|g| pack_motion([0.0, 0.0, depth(*g)])).collect();
     let inputs = [
         ("guide", guides(guide)),
         ("guide_previous", guides(guide)),
-        ("motion", motion),
+        ("motion", guides(&motion)),
         ("samples_previous", before.to_vec()),
     ];
     bench.run(&gradient_sample::step(Features::default()), &inputs).remove("samples_out").unwrap_or_default()
@@ -70,13 +71,14 @@ fn what_is_chosen_is_the_same_surface_and_was_no_sample_before() {
             .pixels()
             .map(|(x, y)| {
                 let p = pinhole.project(bench.position(x, y, depth(guide[bench.at(x, y).unwrap()])));
-                [p[0] - f64::from(x) - 0.5 - jx, p[1] - f64::from(y) - 0.5 - jy, p[2]]
+                // As the texture holds it.
+                unpack_motion(pack_motion([p[0] - f64::from(x) - 0.5 - jx, p[1] - f64::from(y) - 0.5 - jy, p[2]]))
             })
             .collect();
         let mut inputs = vec![
             ("guide", guides(&guide)),
             ("guide_previous", guides(&guide_before)),
-            ("motion", motion.iter().map(|m| [word(m[0]), word(m[1]), word(m[2]), 0]).collect()),
+            ("motion", guides(&motion.iter().map(|&m| pack_motion(m)).collect::<Vec<_>>())),
             ("samples_previous", before.clone()),
         ];
         let mut features = Features::default();

@@ -1,5 +1,6 @@
 //! The packed formats lose no more than they promise.
 
+use super::codec::{pack_motion, unpack_motion};
 use super::compute::compute;
 use super::plane::{V, cross, dot, length, unit};
 use super::random::Random;
@@ -12,6 +13,7 @@ struct Case {
     normal: V,
     lambda: f32,
     octahedral: u32,
+    motion: V,
 }
 
 fn cases() -> Vec<Case> {
@@ -25,10 +27,13 @@ fn cases() -> Vec<Case> {
                 normal: random.direction(),
                 lambda: random.unit() as f32,
                 octahedral: (random.unit() * 4294967295.0) as u32,
+                motion: [random.between(-4200.0, 4200.0), random.between(-9.0, 9.0), 1000.0 * random.unit().powi(4)]
+                    .map(|m| f64::from(m as f32)),
             }
         })
         .collect();
-    // What lies at an edge: nothing, one channel alone, the largest mantissa, powers of two, λ at its ends.
+    // What lies at an edge: nothing, one channel alone, the largest mantissa, powers of two, λ at its ends, motions at
+    // theirs.
     let edges =
         [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1e-30], [1e30, 0.0, 1e29], [0.999_999_9; 3], [2.0; 3], [1e-36; 3]];
     for (case, color) in cases.iter_mut().zip(edges) {
@@ -36,6 +41,10 @@ fn cases() -> Vec<Case> {
     }
     for (case, lambda) in cases.iter_mut().zip([0.0, 1.0, 1e-30, 0.5]) {
         case.lambda = lambda;
+    }
+    let motions = [[0.0; 3], [4095.25, -4095.25, 0.0], [4096.0, 0.0, 1.0], [0.0, -1e9, 1.0], [1.0 / 256.0, -1.0, 1e30]];
+    for (case, motion) in cases.iter_mut().zip(motions) {
+        case.motion = motion.map(|m| f64::from(m as f32));
     }
     for (i, case) in cases.iter_mut().take(6).enumerate() {
         case.normal = [0, 1, 2].map(|axis| if axis == i / 2 { 1.0 - 2.0 * (i % 2) as f64 } else { 0.0 });
@@ -61,11 +70,12 @@ fn every_format_keeps_what_it_promises() {
         .flat_map(|c| {
             let [r, g, b] = c.color;
             let [x, y, z] = c.normal.map(|n| n as f32);
-            [[r, g, b, c.length], [x, y, z, c.lambda], [f32::from_bits(c.octahedral), 0.0, 0.0, 0.0]]
+            let [mx, my, depth] = c.motion.map(|m| m as f32);
+            [[r, g, b, c.length], [x, y, z, c.lambda], [mx, my, depth, f32::from_bits(c.octahedral)]]
         })
         .collect();
-    let results = compute(include_str!("packing.wgsl"), Pass::Resolve, Features::default(), &numbers, 5 * cases.len());
-    for (case, found) in cases.iter().zip(results.chunks_exact(5)) {
+    let results = compute(include_str!("packing.wgsl"), Pass::Resolve, Features::default(), &numbers, 6 * cases.len());
+    for (case, found) in cases.iter().zip(results.chunks_exact(6)) {
         let largest = f64::from(case.color.into_iter().fold(0.0, f32::max));
         for (i, &exact) in case.color.iter().enumerate() {
             let (back, x) = (f64::from(found[0][i]), f64::from(exact));
@@ -90,6 +100,13 @@ fn every_format_keeps_what_it_promises() {
         let (lambda, exact) = (f64::from(found[1][3]), f64::from(case.lambda));
         assert!(lambda >= exact - 1e-6 && lambda <= exact + 1.0 / 255.0 + 1e-6, "λ {lambda} for {exact}");
         assert_eq!(lambda == 0.0, exact == 0.0, "λ is 0 only where it is");
+        let moved = [found[5][0], found[5][1], found[5][2]].map(f64::from);
+        assert_eq!(moved, unpack_motion(pack_motion(case.motion)), "{:?}", case.motion);
+        let near = case.motion[..2].iter().all(|m| m.abs() < 4095.5);
+        for (m, exact) in moved.into_iter().zip(case.motion).take(2) {
+            assert!(if near { (m - exact).abs() <= 1.0 / 512.0 } else { moved[0] == -1e6 }, "motion {m} for {exact}");
+        }
+        assert!((moved[2] / case.motion[2] - 1.0).abs() <= 2.0_f64.powi(-15) || moved[2] == case.motion[2]);
         let unfolded = octahedral(case.octahedral);
         for (i, expected) in unfolded.into_iter().enumerate() {
             // Cancellation in 1 − |x| − |y|, and the rounding of a square root.

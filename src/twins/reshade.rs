@@ -6,7 +6,7 @@ use super::plane::{Pinhole, V, add, dot, length, scale, sub};
 use super::random::Random;
 use crate::Settings;
 use crate::passes::reshade;
-use crate::plan::Features;
+use crate::plan::{Feature, Features};
 
 /// How pixels move, column by column.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +36,11 @@ fn motion(bench: &Bench, x: i32, y: i32, z: f64, shift: V) -> V {
 
 #[test]
 fn a_surface_is_shifted_by_what_it_moved_and_by_nothing_where_it_rests() {
+    check(Features::default());
+    check(Features::of(&[Feature::PreviousDepth]));
+}
+
+fn check(features: Features) {
     let mut rounded = 0;
     for size in SIZES {
         let mut bench = Bench::new(size, Settings::adaptive());
@@ -66,12 +71,16 @@ fn a_surface_is_shifted_by_what_it_moved_and_by_nothing_where_it_rests() {
                 .map(|m| float(word(m)))
             })
             .collect();
-        let inputs = [
+        let knows_depth = features.has(Feature::PreviousDepth);
+        let mut inputs = vec![
             ("samples", records.clone()),
             ("guide_previous", guide_before.iter().map(|g| [g[0], g[1], 0, 0]).collect()),
-            ("motion", motions.iter().map(|m| [word(m[0]), word(m[1]), word(m[2]), 0]).collect::<Vec<Texel>>()),
+            ("motion", motions.iter().map(|m| [word(m[0]), word(m[1]), 0, 0]).collect::<Vec<Texel>>()),
         ];
-        let written = bench.run(&reshade::step(Features::default()), &inputs);
+        if knows_depth {
+            inputs.push(("previous_depth", motions.iter().map(|m| [word(m[2]), 0, 0, 0]).collect()));
+        }
+        let written = bench.run(&reshade::step(features), &inputs);
         let [across, _] = size.map(|s| s.div_ceil(3) as usize);
         for (sx, sy) in bench.strata() {
             let record = records[bench.stratum(sx, sy).unwrap()];
@@ -105,7 +114,11 @@ fn a_surface_is_shifted_by_what_it_moved_and_by_nothing_where_it_rests() {
                 _ => {}
             }
             let [jx, jy] = bench.camera.jitter.map(f64::from);
-            let m = motions[i];
+            let mut m = motions[i];
+            if !knows_depth {
+                // The depth that a point at rest had.
+                m[2] = was.pinhole().project(now)[2];
+            }
             let ray = was.pinhole().ray(f64::from(px) + 0.5 + jx + m[0], f64::from(py) + 0.5 + jy + m[1]);
             let expected = sub(now, add(was.pinhole().eye, scale(ray, m[2])));
             // What 16 bits have moved may be too little to be told from nothing.

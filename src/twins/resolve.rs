@@ -25,6 +25,8 @@ fn check(features: &[Feature], bright: f64) {
             let bench = Bench { continued, ..Bench::new(size, Settings::adaptive()) };
             let features = Features::of(features);
             let unfiltered = features.has(Feature::Unfiltered);
+            // The history's colour has the radiance's format.
+            let precise = unfiltered || features.has(Feature::TemporalOnly);
             let mut random = Random(9);
             let count = (size[0] * size[1]) as usize;
             let mut texels = |f: &mut dyn FnMut(&mut Random) -> Texel| -> Vec<Texel> {
@@ -35,10 +37,10 @@ fn check(features: &[Feature], bright: f64) {
                 [a, b, 0, 0]
             };
             // Every fifth pixel sees nothing.
-            let color = texels(&mut |r| match r.below(5) {
-                _ if unfiltered => packed(r),
-                0 => [0; 4],
-                _ => pack_tap(radiance(r), 1.0, [1, 1]),
+            let guide = texels(&mut |r| [1, u32::from(r.below(5) > 0), 0, 0]);
+            let color = texels(&mut |r| {
+                let [a, b] = pack_tap(radiance(r), 1.0);
+                if precise { packed(r) } else { [a, b, 0, 0] }
             });
             let sky = texels(&mut |r| packed(r));
             let albedo = texels(&mut |r| {
@@ -47,10 +49,14 @@ fn check(features: &[Feature], bright: f64) {
             });
             let emission = texels(&mut |r| packed(r));
             let before = texels(&mut |r| [0; 4].map(|_| word(10.0 * r.unit())));
-            let step = resolve::step(features, (!unfiltered).then_some(Image::Color(0)));
+            let step = resolve::step(
+                features,
+                (!unfiltered).then_some(if precise { Image::History } else { Image::Color(0) }),
+            );
             let mut inputs = vec![(if unfiltered { "radiance" } else { "color" }, color.clone())];
             if features.has(Feature::Background) {
                 inputs.push(("radiance", sky.clone()));
+                inputs.push(("guide", guide.clone()));
             }
             if features.has(Feature::Albedo) {
                 inputs.push(("albedo", albedo.clone()));
@@ -63,10 +69,10 @@ fn check(features: &[Feature], bright: f64) {
             }
             let written = bench.run(&step, &inputs);
             for i in 0..count {
-                let reflected = if unfiltered {
-                    unpack_rgb([color[i][0], color[i][1]])
-                } else if features.has(Feature::Background) && color[i][3] == 0 {
+                let reflected = if features.has(Feature::Background) && guide[i][1] == 0 {
                     unpack_rgb([sky[i][0], sky[i][1]])
+                } else if precise {
+                    unpack_rgb([color[i][0], color[i][1]])
                 } else {
                     unpack_tap(color[i]).0
                 };
@@ -102,13 +108,15 @@ fn check(features: &[Feature], bright: f64) {
 #[test]
 fn every_way_of_putting_it_together() {
     use Feature::*;
-    let sets: [&[Feature]; 9] = [
+    let sets: [&[Feature]; 11] = [
         &[Albedo],
         &[Albedo, DirectEmission],
         &[Albedo, Unfiltered],
         &[Albedo, Unfiltered, DirectEmission],
         &[Albedo, DirectEmission, TargetF16],
         &[Albedo, Unfiltered, Accumulate, DirectEmission],
+        &[TemporalOnly, Albedo],
+        &[TemporalOnly, Background, Albedo, DirectEmission],
         &[Background],
         &[Background, Albedo, DirectEmission],
         &[Unfiltered],

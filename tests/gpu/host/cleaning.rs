@@ -81,7 +81,7 @@ fn bad_surfaces_are_left_out_and_counted() {
         assert_eq!(depth[i][0], 0.0, "pixel {i} sees nothing");
     }
     let motion = super::view(&mut denoiser, View::Motion);
-    assert!(motion[70][0] < -1e8 && motion[90][0] < -1e8, "those were nowhere");
+    assert!(motion[70][0] < -1e5 && motion[90][0] < -1e5, "those were nowhere");
 }
 
 #[test]

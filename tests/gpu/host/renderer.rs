@@ -177,7 +177,8 @@ fn a_wrong_motion_is_seen() {
     let mut stage = Stage::new();
     (0..3_u32).for_each(|i| stage.frame(&walking(10 * i), &walking(10 * i.saturating_sub(1))));
     assert!(stage.largest(View::Motion) > 1.0, "the camera moves");
-    assert!(stage.largest(View::MotionError) < 1e-3, "{}", stage.largest(View::MotionError));
+    // Kept in steps of 1/256.
+    assert!(stage.largest(View::MotionError) < 2.1e-3, "{}", stage.largest(View::MotionError));
     // The other sign.
     let wrong: Vec<[f32; 2]> = stage.view(View::Motion).iter().map(|m| [-m[0], -m[1]]).collect();
     stage.motion = Some(super::upload(gpu(), SIZE, &wrong));
