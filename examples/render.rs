@@ -127,7 +127,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     bar.finish_and_clear();
     if let Some(plan) = film.denoiser.plan().filter(|_| options.explain) {
-        say(&format!("\n{plan}"));
+        say(&format!("\n{plan}\nThe same as a Mermaid graph\n\n{}", plan.graph()));
     }
     let rays = film.numbers(View::Rays)?.iter().map(|pixel| f64::from(pixel[0])).sum();
     say(&times::table(&timed, Some(rays), options.size, &gpu));

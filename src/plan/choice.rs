@@ -96,11 +96,9 @@ fn filter(filter: &FilterSettings, pairs_in_place: bool, changes: Changes) -> Ve
     let gradient = strata && changes.scene;
     let reshade = gradient && source == Source::Reshade;
     let pairs = gradient && source == Source::Pairs;
-    let why_not = if strata && !changes.scene {
-        "nothing changed in the scene: the gradient is 0"
-    } else {
-        "the settings ask for none"
-    };
+    let why_not =
+        if strata && !changes.scene { "nothing changed in the scene: the gradient is 0" } else { "no gradient is set" };
+    let otherwise = if gradient { "the gradient is measured otherwise" } else { why_not };
     let spatial = filter.iterations > 0;
     vec![
         (
@@ -110,18 +108,22 @@ fn filter(filter: &FilterSettings, pairs_in_place: bool, changes: Changes) -> Ve
         ),
         (Unchanged, strata && !changes.scene, [why_not, "the scene may have changed"]),
         (Gradient, gradient, ["the scene may have changed", why_not]),
-        (Reshade, reshade, ["the gradient repeats paths", why_not]),
-        (InPlace, reshade || pairs && pairs_in_place, ["repeated paths take a pixel's own sample's place", why_not]),
-        (BlinnPhong, gradient && source == Source::BlinnPhong, ["the gradient is that of analytic shading", why_not]),
-        (Pairs, pairs, ["the gradient comes from the host's pairs", why_not]),
+        (Reshade, reshade, ["the gradient repeats paths", otherwise]),
+        (InPlace, reshade || pairs && pairs_in_place, ["repeated paths take a pixel's own sample's place", otherwise]),
+        (BlinnPhong, gradient && source == Source::BlinnPhong, ["the gradient is that of analytic shading", otherwise]),
+        (Pairs, pairs, ["the gradient comes from the host's pairs", otherwise]),
         (SignedGradient, gradient && filter.gradient_signed, ["differences may cancel", "differences never cancel"]),
-        (AcrossSurfaces, gradient && filter.gradient_across_surfaces, ["λ heeds what is around", why_not]),
+        (
+            AcrossSurfaces,
+            gradient && filter.gradient_across_surfaces,
+            ["λ heeds what is around", "λ is that of the surface alone, or 0"],
+        ),
         (ExternalLambda, source == Source::Lambda, ["λ is the host's", "the host gives no λ"]),
         // An analytic pair is blind to what blocks a light: its ratio would rescale shadows too.
         (
             HistoryRatio,
             (reshade || pairs) && filter.history_ratio,
-            ["the history is rescaled by what paths show", why_not],
+            ["the history is rescaled by what paths show", "the history is blended as it is"],
         ),
         (BlendByLambda, filter.blend == Blend::Lambda, ["α' = (1 − λ)·α + λ is set", "α' = 1/n is set"]),
         (

@@ -11,6 +11,7 @@ mod compute;
 #[path = "../../tests/common/gpu.rs"]
 mod gpu;
 pub(crate) mod layout;
+mod omissions;
 mod permutations;
 #[allow(dead_code, reason = "shared with the integration tests, which use the rest")]
 #[path = "../../tests/common/plane.rs"]

@@ -104,9 +104,9 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
                 assert_close(found, expected, expected * 2.0_f64.powi(-11) + 1e-9, || format!("{}: colour", what()));
             }
             let (expected, squares) = twin(&bench, step.features, &guide, &history, x, y);
-            // Stored to 2⁻¹²; a neighbour of weight e⁻⁸ may be cut or not, and what is left of squares is as exact as they are.
+            // Stored to 2⁻¹², and not below 2⁻³⁰; a neighbour of weight e⁻⁸ may be cut or not, and what is left of squares is as exact
+            // as they are.
             let error = (deviation.powi(2) - expected.powi(2)).abs();
-            // Below 2⁻³⁰ a deviation is none.
             let allowed = 2e-3 * expected.powi(2) + 1e-3 * squares + 1e-18;
             assert!(error <= allowed, "{}: deviation {deviation}, not {expected} (squares up to {squares})", what());
         }

@@ -1,0 +1,174 @@
+//! What is left out of a plan is left out of its shaders, as naga sees them, of its bindings and of its memory.
+
+use crate::gpu::compose::{Permutation, Shaders};
+use crate::passes::Pass;
+use crate::plan::{Changes, Feature, Features, Plan, Step, Traits, Traversal};
+use crate::{FilterSettings, Gradient, Settings};
+use std::collections::BTreeSet;
+use wgpu::TextureFormat;
+use wgpu::naga::Module;
+
+/// The same of all scenes that have everything but a GPU-less few triangles.
+const ALL: Traits = Traits {
+    instanced: true,
+    textures: true,
+    shading_normals: true,
+    specular: true,
+    alpha_mask: true,
+    emitters: true,
+    punctual_lights: true,
+    environment: true,
+    unlit: true,
+    few_triangles: false,
+};
+
+fn plan(traits: &Traits, filter: FilterSettings, changes: Changes) -> Plan {
+    Plan::path_traced(traits, &Settings { filter, ..Settings::adaptive() }, changes, TextureFormat::Rgba32Float)
+}
+
+fn compose(shaders: &mut Shaders, step: &Step) -> Module {
+    let traversal = Traversal::Tree { stack: 8 };
+    let permutation = Permutation { pass: step.pass, features: step.features, traversal, view: 0 };
+    shaders.compose(permutation).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Names of all functions and bindings of a shader.
+fn names(module: &Module) -> BTreeSet<&str> {
+    let functions = module.functions.iter().filter_map(|(_, f)| f.name.as_deref());
+    let globals = module.global_variables.iter().filter_map(|(_, v)| v.name.as_deref());
+    functions.chain(globals).map(|name| name.split("X_naga_oil").next().unwrap_or(name)).collect()
+}
+
+/// How much code there is.
+fn expressions(module: &Module) -> usize {
+    let entries = module.entry_points.iter().map(|entry| entry.function.expressions.len());
+    entries.chain(module.functions.iter().map(|(_, f)| f.expressions.len())).sum()
+}
+
+/// A step with a feature, and the step of the same pass where that is left out.
+fn pair<'a>(with: &'a Plan, without: &'a Plan, pass: Pass) -> [&'a Step; 2] {
+    [with, without]
+        .map(|plan| plan.steps.iter().find(|step| step.pass == pass).unwrap_or_else(|| panic!("no {pass:?}")))
+}
+
+/// Asserts that a step has lost code, and just these functions and bindings.
+fn assert_leaner(shaders: &mut Shaders, [with, without]: [&Step; 2], lost: &[&str]) {
+    let [with, lean] = [with, without].map(|step| compose(shaders, step));
+    let what = format!("{:?} with {:?}", without.pass, without.features);
+    let found: Vec<_> = names(&with).difference(&names(&lean)).copied().collect();
+    assert_eq!(found, lost, "{what}: what is gone");
+    assert!(names(&lean).is_subset(&names(&with)), "{what}: nothing takes its place");
+    let [before, after] = [&with, &lean].map(expressions);
+    println!("{what}: {before} → {after} expressions");
+    assert!(after < before, "{what}: no code is gone");
+}
+
+#[test]
+fn what_a_scene_does_not_have_is_not_in_its_shaders() {
+    let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
+    let everything = plan(&ALL, FilterSettings::default(), Changes::ANY);
+    let moving = &[
+        "instance_grid",
+        "instance_numbers",
+        "instance_record",
+        "object_to_world",
+        "previous_object_to_world",
+        "transform_normal",
+        "transform_point",
+        "transform_vector",
+        "triangle_before",
+        "world_to_object",
+    ][..];
+    let images = &["exists", "sample_texture", "srgb_to_linear", "texel", "texture_coordinates", "wrap"][..];
+    let sky = &["environment_density", "environment_texel", "texel_radiance"][..];
+    let cases: [(Traits, &[&str]); 8] = [
+        (Traits { instanced: false, ..ALL }, moving),
+        (Traits { textures: false, ..ALL }, images),
+        (Traits { shading_normals: false, ..ALL }, &["octahedral", "transform_normal", "unpack_octahedral"]),
+        (Traits { specular: false, ..ALL }, &["distribution", "fresnel", "smith", "specular_share"]),
+        (Traits { alpha_mask: false, ..ALL }, &["is_hole"]),
+        (Traits { emitters: false, ..ALL }, &["emitter_density"]),
+        (Traits { punctual_lights: false, ..ALL }, &[]),
+        (Traits { environment: false, ..ALL }, sky),
+    ];
+    for (traits, lost) in cases {
+        let lean = plan(&traits, FilterSettings::default(), Changes::ANY);
+        assert_leaner(&mut shaders, pair(&everything, &lean, Pass::Trace), lost);
+    }
+}
+
+#[test]
+fn what_the_settings_and_the_frame_do_not_ask_for_is_not_in_the_shaders() {
+    let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
+    let adaptive = plan(&ALL, FilterSettings::default(), Changes::ANY);
+    let off = FilterSettings { gradient: Gradient::Off, ..Default::default() };
+    let constant = plan(&ALL, off.clone(), Changes::ANY);
+    let still = plan(&ALL, off, Changes::NONE);
+    let [with, without] = pair(&adaptive, &constant, Pass::Temporal);
+    for binding in ["samples", "gradient", "ratio"] {
+        assert!(names(&compose(&mut shaders, with)).contains(binding), "{binding}");
+        assert!(!names(&compose(&mut shaders, without)).contains(binding), "{binding}");
+    }
+    for binding in ["guide_previous", "motion", "object", "object_previous"] {
+        let [with, without] = pair(&constant, &still, Pass::Temporal);
+        assert!(names(&compose(&mut shaders, with)).contains(binding), "{binding}");
+        assert!(!names(&compose(&mut shaders, without)).contains(binding), "{binding}");
+    }
+    // A frame in which nothing changed runs the passes that a constant α does.
+    let quiet = plan(&ALL, FilterSettings::default(), Changes { camera: true, scene: false });
+    let passes = |plan: &Plan| plan.steps.iter().map(|step| step.pass).collect::<Vec<_>>();
+    assert_eq!(passes(&quiet), passes(&constant));
+    assert_eq!(
+        adaptive.steps.len() - quiet.steps.len(),
+        8,
+        "sample, pairs, 3 × their filter, gradient, 2 × its filter"
+    );
+    let bare = FilterSettings { iterations: 0, gradient: Gradient::Off, ..Default::default() };
+    let bare = plan(&Traits::default(), bare, Changes::ANY);
+    assert_eq!(passes(&bare), [Pass::Visibility, Pass::Trace, Pass::Temporal, Pass::Resolve]);
+    let size = [1920, 1080];
+    let bytes = [&adaptive, &constant, &bare].map(|plan| plan.bytes(size, false));
+    assert!(bytes[0] > bytes[1] && bytes[1] > bytes[2], "{bytes:?}");
+}
+
+#[test]
+fn every_decision_has_a_reason_and_is_carried_out() {
+    for (traits, changes) in [(ALL, Changes::ANY), (Traits::default(), Changes::ANY), (ALL, Changes::NONE)] {
+        let plan = plan(&traits, FilterSettings::default(), changes);
+        let mut decided = BTreeSet::new();
+        for decision in &plan.decisions {
+            assert!(!decision.reason.is_empty(), "{decision:?}");
+            assert!(decided.insert(decision.feature), "{:?} is decided twice", decision.feature);
+            assert_eq!(plan.features.has(decision.feature), decision.included, "{decision:?}");
+        }
+        let compiled: Features = plan.steps.iter().flat_map(|step| step.features.iter()).collect();
+        let own = Features::of(&[Feature::FirstIteration]);
+        let undecided = compiled.iter().filter(|f| !own.has(*f) && !decided.contains(f)).collect::<Vec<_>>();
+        assert!(undecided.is_empty(), "{undecided:?} are in for no reason");
+    }
+}
+
+#[test]
+fn a_plan_can_be_read() {
+    let plan = plan(&Traits::default(), FilterSettings::default(), Changes::ANY);
+    let table = plan.to_string();
+    for expected in [
+        format!("{} dispatches", plan.steps.len()).as_str(),
+        "no material has an image",
+        "last history",
+        " → history",
+        "atrous",
+    ] {
+        assert!(table.contains(expected), "`{expected}` is not in\n{table}");
+    }
+    let graph = plan.graph();
+    assert!(graph.starts_with("flowchart TD\n"), "{graph}");
+    for expected in [
+        "atrous[\"atrous ×4\"]:::pass",
+        "i_last_history --> temporal",
+        "temporal --> i_history",
+        "resolve --> i_target",
+    ] {
+        assert!(graph.contains(expected), "`{expected}` is not in\n{graph}");
+    }
+}
