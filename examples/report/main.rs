@@ -10,6 +10,7 @@ mod methods;
 mod plots;
 mod record;
 mod score;
+mod script;
 mod suite;
 mod summary;
 mod tables;

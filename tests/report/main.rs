@@ -36,6 +36,8 @@ mod plots;
 mod record;
 #[path = "../../examples/report/score.rs"]
 mod score;
+#[path = "../../examples/report/script.rs"]
+mod script;
 #[path = "../../examples/support/stage.rs"]
 mod stage;
 #[path = "../../examples/report/suite.rs"]
