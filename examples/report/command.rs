@@ -22,8 +22,9 @@ With `--features flip` (which needs a C++ compiler) FLIP and its maps are in it 
   --paths N             paths per pixel of the references      [quick 256, full 8192]
   --repeats N           how often times are taken, after once for the errors; with 0, in
                         that once, from the frames after the first    [quick 3, full 5]
-  --budget MINUTES      measure no longer than about so long: repeats are dropped before
-                        methods, and the report says which                       [none]
+  --budget MINUTES      measure no longer than about so long: repeats are dropped first,
+                        then the size is halved, then methods are dropped, and the report
+                        says which                                               [none]
   --out DIR             folder for everything; made if missing           [target/report]
   --baseline NAME=DIR   also score another denoiser's frames. DIR/SEQUENCE/ holds
                         denoised_0022.exr, …, and may hold times.txt with the

@@ -1,12 +1,14 @@
 //! Measures error against run time: `cargo run --release --example report -- --help`.
 
 mod baseline;
+mod budget;
 mod canvas;
 mod command;
 mod crops;
 mod hash;
 mod measure;
 mod methods;
+mod pace;
 mod plots;
 mod record;
 mod score;
@@ -55,6 +57,7 @@ use std::error::Error;
 use std::fs;
 use std::io::Write as _;
 use std::process::ExitCode;
+use std::time::Instant;
 use words::Context;
 use work::Work;
 
@@ -64,7 +67,7 @@ fn main() -> ExitCode {
             say(command::HELP);
             Ok(())
         }
-        Ok(Request::Report(command)) => report(&command),
+        Ok(Request::Report(command)) => report(command),
         Err(usage) => Err(usage.into()),
     };
     match result {
@@ -80,11 +83,13 @@ fn main() -> ExitCode {
     }
 }
 
-fn report(command: &Command) -> Result<(), Box<dyn Error>> {
-    let suite = &command.suite;
+fn report(mut command: Command) -> Result<(), Box<dyn Error>> {
+    let start = Instant::now();
     fs::create_dir_all(command.out.join("runs")).map_err(|e| format!("--out {}: {e}", command.out.display()))?;
     let gpu = Gpu::new()?;
-    let mut work = Work::new(command, &gpu);
+    let dropped = budget::fit(&mut command, &gpu)?.into_iter().collect();
+    let (command, suite) = (&command, &command.suite);
+    let mut work = Work::new(command, &gpu, start, dropped);
     let chapters = suite.sequences.iter().filter_map(|sequence| work.chapter(sequence).transpose());
     let chapters = chapters.collect::<Result<Vec<_>, _>>()?;
     let dropped = work.finish();

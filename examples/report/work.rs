@@ -2,6 +2,7 @@
 
 use crate::command::Command;
 use crate::gpu::Gpu;
+use crate::hash::Hash;
 use crate::measure::{self, Output};
 use crate::methods::{DEFAULT, Group, Method, ONE_PATH};
 use crate::record::Run;
@@ -9,12 +10,12 @@ use crate::suite::{Sequence, Suite, TURN};
 use crate::summary::Summary;
 use crate::truth::{self, Rgb, Truth};
 use crate::words::Chapter;
-use crate::{baseline, crops, plots, verdict};
+use crate::{baseline, budget, crops, plots, verdict};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use std::{fs, io};
 
 /// The constant α that pictures show.
 const CONSTANT: &str = "svgf 0.2";
@@ -45,11 +46,12 @@ pub struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    pub fn new(command: &'a Command, gpu: &'a Gpu) -> Self {
+    /// The budget is counted from a start on.
+    pub fn new(command: &'a Command, gpu: &'a Gpu, start: Instant, dropped: Vec<String>) -> Self {
         let suite = &command.suite;
-        let deadline = command.budget.map(|minutes| Instant::now() + Duration::from_secs_f64(60.0 * minutes));
+        let deadline = command.budget.map(|minutes| start + Duration::from_secs_f64(60.0 * minutes));
         let left = suite.sequences.len() * suite.methods.len();
-        Self { command, gpu, bar: progress(suite), deadline, left, dropped: Vec::new() }
+        Self { command, gpu, bar: progress(suite), deadline, left, dropped }
     }
 
     /// What there was no time for.
@@ -62,11 +64,12 @@ impl<'a> Work<'a> {
     pub fn chapter(&mut self, sequence: &Sequence) -> Result<Option<Chapter>, Box<dyn Error>> {
         let Command { suite, out, baselines, .. } = self.command;
         let name = sequence.name.clone();
-        let folder = out.join("runs").join(&name);
+        let runs = out.join("runs");
+        let folder = runs.join(&name);
         fs::create_dir_all(&folder)?;
         // What was kept takes no time.
         if self.time() == Some(Duration::ZERO) && fs::read_dir(&folder)?.next().is_none() {
-            self.dropped.push(format!("{name}: all of it"));
+            self.dropped.push(format!("{name} as a whole"));
             return Ok(None);
         }
         self.bar.set_message(format!("{name}: references"));
@@ -76,24 +79,16 @@ impl<'a> Work<'a> {
         }
         let counting = |frames: u32| self.bar.inc(frames.into());
         let mut truth = Truth::find(self.gpu, suite, sequence, export.as_deref(), counting)?;
-        let (mut summaries, mut missing) = (Vec::new(), Vec::new());
+        let (mut summaries, mut repeats) = (Vec::new(), Vec::new());
         for method in &suite.methods {
             self.bar.set_message(format!("{name}: {}", method.name));
-            match self.run(&name, method, &mut truth, &folder)? {
-                Some(run) => {
-                    if run.repeats < suite.repeats {
-                        missing.push(format!("{} ({} repeats of {})", method.name, run.repeats, suite.repeats));
-                    }
-                    summaries.push(Summary::of(&run, &method.name, method.group));
-                }
-                None => missing.push(format!("{} (all of it)", method.name)),
-            }
+            let run = self.run(&name, method, &mut truth, &runs)?;
+            repeats.push((method.name.as_str(), run.as_ref().map(|run| run.repeats)));
+            summaries.extend(run.map(|run| Summary::of(&run, &method.name, method.group)));
             self.left -= 1;
             self.bar.inc(suite.frames.into());
         }
-        if !missing.is_empty() {
-            self.dropped.push(format!("{name}: {}", missing.join(", ")));
-        }
+        self.dropped.extend(budget::shortfall(&name, &repeats, suite.repeats));
         let traced = verdict::find(&summaries, ONE_PATH).map_or(Vec::new(), |summary| summary.passes.clone());
         for baseline in baselines {
             if let Some(run) = baseline::run(baseline, &name, &truth.moments, suite.size, &traced)? {
@@ -116,12 +111,11 @@ impl<'a> Work<'a> {
         sequence: &str,
         method: &Method,
         truth: &mut Truth,
-        folder: &Path,
+        runs: &Path,
     ) -> Result<Option<Run>, Box<dyn Error>> {
         let Command { suite, .. } = self.command;
-        let key = truth.hash.and_files(&CODE)?.and(&method.settings).and(&suite.frames);
-        let key = key.and(&self.gpu.adapter.name).to_string();
-        let path = folder.join(format!("{}.json", method.name));
+        let key = key(truth.hash, suite, method, self.gpu)?;
+        let path = path(runs, sequence, method);
         // Without a budget, what an earlier one cut short is measured again.
         let complete = |run: &Run| self.deadline.is_some() || run.repeats >= suite.repeats;
         if let Some(run) = Run::load(&path, &key).filter(complete) {
@@ -136,8 +130,7 @@ impl<'a> Work<'a> {
         let Output { run, images } = measure::run(self.gpu, suite, truth, (sequence, method), key, share)?;
         if let Some(shown) = truth.moments.iter().position(|moment| moment.index == SHOWN) {
             let [width, height] = suite.size;
-            let path = folder.join(format!("{}.exr", method.name));
-            asvgf::image_io::write_exr_rgb(path, width, height, &images[shown])?;
+            asvgf::image_io::write_exr_rgb(path.with_extension("exr"), width, height, &images[shown])?;
         }
         run.save(&path)?;
         Ok(Some(run))
@@ -159,6 +152,17 @@ impl<'a> Work<'a> {
         crops::write(&self.command.out.join(&name), size, &tiles)?;
         Ok(Some(name))
     }
+}
+
+/// Everything that decides a run.
+pub fn key(scene: Hash, suite: &Suite, method: &Method, gpu: &Gpu) -> io::Result<String> {
+    let key = scene.and_files(&CODE)?.and(&method.settings).and(&suite.frames);
+    Ok(key.and(&gpu.adapter.name).to_string())
+}
+
+/// The file that a run is kept in.
+pub fn path(runs: &Path, sequence: &str, method: &Method) -> PathBuf {
+    runs.join(sequence).join(format!("{}.json", method.name))
 }
 
 /// A bar of frames, references included. It does not show where there is no terminal.

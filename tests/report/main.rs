@@ -6,6 +6,8 @@
 mod arguments;
 #[path = "../../examples/report/baseline.rs"]
 mod baseline;
+#[path = "../../examples/report/budget.rs"]
+mod budget;
 #[path = "../../examples/support/camera.rs"]
 mod camera;
 #[path = "../../examples/report/canvas.rs"]
@@ -30,6 +32,8 @@ mod measure;
 mod methods;
 #[path = "../../examples/support/options.rs"]
 mod options;
+#[path = "../../examples/report/pace.rs"]
+mod pace;
 #[path = "../../examples/report/plots/mod.rs"]
 mod plots;
 #[path = "../../examples/report/record.rs"]
@@ -58,8 +62,11 @@ mod truth;
 mod verdict;
 #[path = "../../examples/report/words.rs"]
 mod words;
+#[path = "../../examples/report/work.rs"]
+mod work;
 
 mod asking;
+mod budgeting;
 mod keeping;
 mod listing;
 mod measuring;
