@@ -25,6 +25,7 @@ With `--features flip` (which needs a C++ compiler) FLIP and its maps are in it 
   --budget MINUTES      measure no longer than about so long: repeats are dropped first,
                         then the size is halved, then methods are dropped, and the report
                         says which                                               [none]
+  --growth              also measure how time and memory grow with pixels and triangles
   --out DIR             folder for everything; made if missing           [target/report]
   --baseline NAME=DIR   also score another denoiser's frames. DIR/SEQUENCE/ holds
                         denoised_0022.exr, …, and may hold times.txt with the
@@ -54,6 +55,8 @@ pub struct Command {
     pub baselines: Vec<Baseline>,
     /// Write the frames too.
     pub export: bool,
+    /// Measure how cost grows too.
+    pub growth: bool,
 }
 
 /// Another denoiser's output.
@@ -68,7 +71,8 @@ const VALUED: [&str; 8] = ["suite", "scene", "size", "paths", "repeats", "budget
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let mut suite = Suite::quick();
-    let (mut scene, mut size, mut paths, mut repeats, mut export) = (None, None, None, None, false);
+    let (mut scene, mut size, mut paths, mut repeats) = (None, None, None, None);
+    let (mut export, mut growth) = (false, false);
     let (mut budget, mut out, mut baselines) = (None, PathBuf::from("target/report"), Vec::new());
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
@@ -76,6 +80,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
             lexopt::Arg::Short('h') | lexopt::Arg::Long("help") => return Ok(Request::Help),
             lexopt::Arg::Long("sequences") => {
                 export = true;
+                continue;
+            }
+            lexopt::Arg::Long("growth") => {
+                growth = true;
                 continue;
             }
             lexopt::Arg::Long(name) if VALUED.contains(&name) => name.to_owned(),
@@ -102,7 +110,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     suite.size = size.unwrap_or(suite.size);
     suite.paths = paths.unwrap_or(suite.paths);
     suite.repeats = repeats.unwrap_or(suite.repeats);
-    Ok(Request::Report(Command { suite, budget, out, baselines, export }))
+    Ok(Request::Report(Command { suite, budget, out, baselines, export, growth }))
 }
 
 fn pixels(value: &Value) -> Result<[u32; 2], Usage> {

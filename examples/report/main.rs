@@ -5,7 +5,10 @@ mod budget;
 mod canvas;
 mod command;
 mod crops;
+mod fit;
+mod growth;
 mod hash;
+mod keep;
 mod measure;
 mod methods;
 mod pace;
@@ -16,9 +19,11 @@ mod script;
 mod suite;
 mod summary;
 mod tables;
+mod tessellation;
 mod truth;
 mod verdict;
 mod words;
+mod words_growth;
 mod work;
 
 #[allow(dead_code, reason = "shared with the other examples")]
@@ -92,12 +97,14 @@ fn report(mut command: Command) -> Result<(), Box<dyn Error>> {
     let mut work = Work::new(command, &gpu, start, dropped);
     let chapters = suite.sequences.iter().filter_map(|sequence| work.chapter(sequence).transpose());
     let chapters = chapters.collect::<Result<Vec<_>, _>>()?;
+    let growth = command.growth.then(|| work.growth()).transpose()?;
     let dropped = work.finish();
     let rows: Vec<_> = chapters.iter().flat_map(|chapter| &chapter.summaries).flat_map(|s| s.rows.clone()).collect();
     write(command, "report.csv", &tables::csv(&rows))?;
     write(command, "report.json", &tables::json(&rows)?)?;
     let context = Context { facts: tables::facts(command, &gpu), dropped, paths: suite.paths };
-    write(command, "report.md", &words::report(&context, &chapters))?;
+    let text = words::report(&context, &chapters) + &growth.unwrap_or_default();
+    write(command, "report.md", &text)?;
     say(&format!("{}\n", command.out.join("report.md").display()));
     Ok(())
 }

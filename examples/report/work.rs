@@ -2,6 +2,7 @@
 
 use crate::command::Command;
 use crate::gpu::Gpu;
+use crate::growth::Growth;
 use crate::hash::Hash;
 use crate::measure::{self, Output};
 use crate::methods::{DEFAULT, Group, Method, ONE_PATH};
@@ -10,7 +11,7 @@ use crate::suite::{Sequence, Suite, TURN};
 use crate::summary::Summary;
 use crate::truth::{self, Rgb, Truth};
 use crate::words::Chapter;
-use crate::{baseline, budget, crops, plots, verdict};
+use crate::{baseline, budget, crops, plots, verdict, words_growth};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ use std::{fs, io};
 /// The constant α that pictures show.
 const CONSTANT: &str = "svgf 0.2";
 /// The code that decides what a run is.
-const CODE: [&str; 8] = [
+pub const CODE: [&str; 8] = [
     "shaders",
     "src",
     "examples/report/measure.rs",
@@ -98,6 +99,15 @@ impl<'a> Work<'a> {
         let plots = plots::draw(out, &name, &summaries)?;
         let picture = self.picture(&name, &truth, &folder)?;
         Ok(Some(Chapter { sequence: name, summaries, plots, picture }))
+    }
+
+    /// Measures how cost grows, and draws it; returns it in words.
+    pub fn growth(&self) -> Result<String, Box<dyn Error>> {
+        let out = &self.command.out;
+        let next = |what: &str| self.bar.set_message(format!("growth: {what}"));
+        let growth = Growth::find(self.gpu, &out.join("runs/growth.json"), next)?;
+        let plots = plots::draw_growth(out, &growth)?;
+        Ok(words_growth::growth(&growth, &plots))
     }
 
     /// Time that is left, if there is an end to it.
