@@ -79,11 +79,14 @@ impl<'a> Work<'a> {
             fs::create_dir_all(folder)?;
         }
         let counting = |frames: u32| self.bar.inc(frames.into());
-        let mut truth = Truth::find(self.gpu, suite, sequence, export.as_deref(), counting)?;
+        // Of each sequence's own: after some hundred compiled shaders lavapipe drops what it will need again, and a pass that has to be
+        // compiled in every frame takes ten times as long.
+        let gpu = Gpu::new()?;
+        let mut truth = Truth::find(&gpu, suite, sequence, export.as_deref(), counting)?;
         let (mut summaries, mut repeats) = (Vec::new(), Vec::new());
         for method in &suite.methods {
             self.bar.set_message(format!("{name}: {}", method.name));
-            let run = self.run(&name, method, &mut truth, &runs)?;
+            let run = self.run(&gpu, &name, method, &mut truth, &runs)?;
             repeats.push((method.name.as_str(), run.as_ref().map(|run| run.repeats)));
             summaries.extend(run.map(|run| Summary::of(&run, &method.name, method.group)));
             self.left -= 1;
@@ -118,13 +121,14 @@ impl<'a> Work<'a> {
     /// A run that was kept, or a new one; `None` where there is no time for it.
     fn run(
         &self,
+        gpu: &Gpu,
         sequence: &str,
         method: &Method,
         truth: &mut Truth,
         runs: &Path,
     ) -> Result<Option<Run>, Box<dyn Error>> {
         let Command { suite, .. } = self.command;
-        let key = key(truth.hash, suite, method, self.gpu)?;
+        let key = key(truth.hash, suite, method, gpu)?;
         let path = path(runs, sequence, method);
         // Without a budget, what an earlier one cut short is measured again.
         let complete = |run: &Run| self.deadline.is_some() || run.repeats >= suite.repeats;
@@ -137,7 +141,7 @@ impl<'a> Work<'a> {
             return Ok(None);
         }
         let share = time.map(|time| time / self.left as u32);
-        let Output { run, images } = measure::run(self.gpu, suite, truth, (sequence, method), key, share)?;
+        let Output { run, images } = measure::run(gpu, suite, truth, (sequence, method), key, share)?;
         if let Some(shown) = truth.moments.iter().position(|moment| moment.index == SHOWN) {
             let [width, height] = suite.size;
             asvgf::image_io::write_exr_rgb(path.with_extension("exr"), width, height, &images[shown])?;
