@@ -1,20 +1,27 @@
 //! What a frame costs: `cargo bench --bench frame [-- [FRAMES] [CASE]]`; CASE is a part of a case's name, as printed.
 //!
-//! Prints the adapter first, then for each case the median over the frames of each pass, and rays per second. On a software
-//! adapter, whose timestamps are those of the queue and not of the work, each pass is submitted and waited for by itself, and
-//! what counts is the processor time of all threads over the number of cores: on an idle machine that is the time on the clock,
-//! and on a busy one it is disturbed less. Compare only figures of one run.
+//! Prints the adapter and how times are taken, then for each case the median over the frames of each pass, and rays per second.
+//! Compare only figures of one run.
 
+#[allow(dead_code, reason = "shared with the examples")]
+#[path = "../examples/support/film.rs"]
+mod film;
+#[allow(dead_code, reason = "shared with the examples")]
 #[path = "../examples/support/gpu.rs"]
 mod gpu;
+#[allow(dead_code, reason = "shared with the examples")]
+#[path = "../examples/support/times.rs"]
+mod times;
+#[allow(dead_code, reason = "shared with the examples")]
+#[path = "../examples/support/tracing.rs"]
+mod tracing;
 
 use asvgf::scene::{GpuScene, builtin};
-use asvgf::wgpu::{DeviceType, TextureFormat};
-use asvgf::{Camera, Denoiser, DenoiserDescriptor, Frame, Settings, View, ViewOptions};
-use cpu_time::ProcessTime;
+use asvgf::{Camera, Settings, View};
+use film::Film;
 use gpu::Gpu;
 use std::collections::BTreeMap;
-use std::time::Duration;
+use times::{Clock, median};
 
 /// Frames before the first that counts: pipelines compile in the first, histories are short in the next.
 const WARM_UP: u32 = 5;
@@ -26,8 +33,11 @@ fn main() {
         std::process::exit(1);
     });
     println!(
-        "{} ({}, {:?}), {frames} frames after {WARM_UP}",
-        gpu.adapter.name, gpu.adapter.driver_info, gpu.adapter.backend
+        "{} ({}, {:?}), {frames} frames after {WARM_UP}, by {}",
+        gpu.adapter.name,
+        gpu.adapter.driver_info,
+        gpu.adapter.backend,
+        Clock::of(&gpu).name()
     );
     let chosen: Vec<String> =
         std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
@@ -38,13 +48,15 @@ fn main() {
             trace(&gpu, scene, animation, [512, 512], frames);
         }
     }
-    for (name, settings) in [
-        ("adaptive", Settings::adaptive()),
-        ("constant 0.1", Settings::adaptive().constant(0.1)),
-        ("classic", Settings::classic()),
+    // The lamp moves: where nothing changes, most of the filter is left out.
+    for (name, animation, settings) in [
+        ("adaptive", "move-light", Settings::adaptive()),
+        ("constant 0.1", "move-light", Settings::adaptive().constant(0.1)),
+        ("classic", "move-light", Settings::classic()),
+        ("adaptive, still", "static", Settings::adaptive()),
     ] {
         if runs(&format!("filter {name}")) {
-            filter(&gpu, name, settings, frames);
+            filter(&gpu, (name, animation), settings, frames);
         }
     }
 }
@@ -63,9 +75,9 @@ fn trace(gpu: &Gpu, scene: &str, animation: &str, size: [u32; 2], frames: u32) {
 }
 
 /// Milliseconds of everything but tracing.
-fn filter(gpu: &Gpu, name: &str, settings: Settings, frames: u32) {
+fn filter(gpu: &Gpu, (name, animation): (&str, &str), settings: Settings, frames: u32) {
     let size = [1280, 720];
-    let (times, _) = measure(gpu, "cornell", "static", size, settings, frames);
+    let (times, _) = measure(gpu, "cornell", animation, size, settings, frames);
     let passes: Vec<_> = times.iter().filter(|(n, _)| !["visibility", "trace"].contains(n)).collect();
     let total: f64 = passes.iter().map(|(_, ms)| *ms).sum();
     println!("filter {name}, {}×{}: {total:.1} ms", size[0], size[1]);
@@ -85,11 +97,7 @@ fn measure(
 ) -> (BTreeMap<&'static str, f64>, f64) {
     let scene = builtin::scene(name, animation).expect("a built-in scene");
     let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).expect("it fits");
-    let timing = gpu.adapter.device_type != DeviceType::Cpu
-        && gpu.device.features().contains(asvgf::wgpu::Features::TIMESTAMP_QUERY);
-    let descriptor = DenoiserDescriptor { size, settings, timing, views: true, ..Default::default() };
-    let mut denoiser = Denoiser::new(&gpu.device, &gpu.queue, &descriptor).expect("a denoiser");
-    let target = gpu.target(size, TextureFormat::Rgba32Float);
+    let mut film = Film::new(gpu, size, settings).expect("a denoiser");
     let mut samples = BTreeMap::<&'static str, Vec<f64>>::new();
     for index in 0..WARM_UP + frames {
         let pose = scene.pose(Some(0), index as f32 / 30.0);
@@ -97,25 +105,10 @@ fn measure(
         let camera = Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         uploaded.update(&gpu.device, &mut encoder, &pose).expect("a pose of the scene");
-        let frame = Frame { scene: &uploaded, camera, index, target: &target };
+        gpu.queue.submit([encoder.finish()]);
         let mut times = BTreeMap::<&'static str, f64>::new();
-        if timing {
-            denoiser.render(&gpu.device, &mut encoder, &frame).expect("a frame");
-            gpu.queue.submit([encoder.finish()]);
-            gpu.wait();
-            for (pass, ms) in denoiser.take_times().map(|t| t.passes).unwrap_or_default() {
-                *times.entry(pass).or_default() += ms;
-            }
-        } else {
-            let mut start = ProcessTime::now();
-            let stepped = denoiser.render_stepwise(&gpu.device, &mut encoder, &frame, |pass, encoder| {
-                let recorded = std::mem::replace(encoder, gpu.device.create_command_encoder(&Default::default()));
-                gpu.queue.submit([recorded.finish()]);
-                gpu.wait();
-                *times.entry(pass.name()).or_default() += milliseconds_per_core(start.elapsed());
-                start = ProcessTime::now();
-            });
-            stepped.expect("a frame");
+        for (pass, ms) in tracing::render(&mut film, &uploaded, camera, index).expect("a frame") {
+            *times.entry(pass).or_default() += ms;
         }
         if index >= WARM_UP {
             for (pass, ms) in times {
@@ -123,18 +116,6 @@ fn measure(
             }
         }
     }
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    denoiser.show(&gpu.device, &mut encoder, View::Rays, ViewOptions::default(), &target).expect("a view");
-    gpu.queue.submit([encoder.finish()]);
-    let rays = gpu.read_colors(&target).iter().map(|c| f64::from(c[0])).sum();
+    let rays = film.numbers(View::Rays).expect("a view").iter().map(|c| f64::from(c[0])).sum();
     (samples.into_iter().map(|(pass, times)| (pass, median(times))).collect(), rays)
-}
-
-fn milliseconds_per_core(time: Duration) -> f64 {
-    time.as_secs_f64() * 1e3 / std::thread::available_parallelism().map_or(1.0, |n| n.get() as f64)
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

@@ -16,12 +16,16 @@ With `--features flip` (which needs a C++ compiler) FLIP and its maps are in it 
 
   --suite NAME          quick: three sequences and a choice of methods, in minutes on a
                         software adapter; full: everything                      [quick]
-  --scene SCENE         only this scene: cornell, pillars, or a .gltf, .glb or .obj file
-                        with its first animation                    [the suite's scenes]
+  --scene SCENE         only this scene: cornell, pillars, textured, or a .gltf, .glb or
+                        .obj file with its first animation          [the suite's scenes]
   --size WxH            pixels                          [quick 96x54, full 640x360]
   --paths N             paths per pixel of the references      [quick 256, full 8192]
-  --budget MINUTES      measure no longer than about so long: repeats are dropped before
-                        methods, and the report says which                       [none]
+  --repeats N           how often times are taken, after once for the errors; with 0, in
+                        that once, from the frames after the first    [quick 3, full 5]
+  --budget MINUTES      measure no longer than about so long: repeats are dropped first,
+                        then the size is halved, then methods are dropped, and the report
+                        says which                                               [none]
+  --growth              also measure how time and memory grow with pixels and triangles
   --out DIR             folder for everything; made if missing           [target/report]
   --baseline NAME=DIR   also score another denoiser's frames. DIR/SEQUENCE/ holds
                         denoised_0022.exr, …, and may hold times.txt with the
@@ -51,6 +55,8 @@ pub struct Command {
     pub baselines: Vec<Baseline>,
     /// Write the frames too.
     pub export: bool,
+    /// Measure how cost grows too.
+    pub growth: bool,
 }
 
 /// Another denoiser's output.
@@ -59,10 +65,14 @@ pub struct Baseline {
     pub folder: PathBuf,
 }
 
+/// The options that have a value.
+const VALUED: [&str; 8] = ["suite", "scene", "size", "paths", "repeats", "budget", "out", "baseline"];
+
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let mut suite = Suite::quick();
-    let (mut scene, mut size, mut paths, mut export) = (None, None, None, false);
+    let (mut scene, mut size, mut paths, mut repeats) = (None, None, None, None);
+    let (mut export, mut growth) = (false, false);
     let (mut budget, mut out, mut baselines) = (None, PathBuf::from("target/report"), Vec::new());
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
@@ -72,9 +82,11 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
                 export = true;
                 continue;
             }
-            lexopt::Arg::Long(name @ ("suite" | "scene" | "size" | "paths" | "budget" | "out" | "baseline")) => {
-                name.to_owned()
+            lexopt::Arg::Long("growth") => {
+                growth = true;
+                continue;
             }
+            lexopt::Arg::Long(name) if VALUED.contains(&name) => name.to_owned(),
             _ => return Err(argument.unexpected().into()),
         };
         if name == "out" {
@@ -87,6 +99,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
             "scene" => scene = Some(value.text),
             "size" => size = Some(pixels(&value)?),
             "paths" => paths = Some(value.whole(1..=1_000_000)?),
+            "repeats" => repeats = Some(value.whole(0..=1000)?),
             "budget" => budget = Some(value.number(0.1..=1e5)?.into()),
             _ => baselines.push(baseline(&value)?),
         }
@@ -96,7 +109,8 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     }
     suite.size = size.unwrap_or(suite.size);
     suite.paths = paths.unwrap_or(suite.paths);
-    Ok(Request::Report(Command { suite, budget, out, baselines, export }))
+    suite.repeats = repeats.unwrap_or(suite.repeats);
+    Ok(Request::Report(Command { suite, budget, out, baselines, export, growth }))
 }
 
 fn pixels(value: &Value) -> Result<[u32; 2], Usage> {

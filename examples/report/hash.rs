@@ -59,8 +59,8 @@ impl fmt::Display for Hash {
     }
 }
 
-/// Where the program was built or, if it was carried to another machine, the current folder.
-fn root() -> &'static Path {
+/// This repository: where the program was built or, if it was carried to another machine, the current folder.
+pub fn root() -> &'static Path {
     let built = Path::new(env!("CARGO_MANIFEST_DIR"));
     if built.is_dir() { built } else { Path::new(".") }
 }

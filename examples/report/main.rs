@@ -1,21 +1,29 @@
 //! Measures error against run time: `cargo run --release --example report -- --help`.
 
 mod baseline;
+mod budget;
 mod canvas;
 mod command;
 mod crops;
+mod fit;
+mod growth;
 mod hash;
+mod keep;
 mod measure;
 mod methods;
+mod pace;
 mod plots;
 mod record;
 mod score;
+mod script;
 mod suite;
 mod summary;
 mod tables;
+mod tessellation;
 mod truth;
 mod verdict;
 mod words;
+mod words_growth;
 mod work;
 
 #[allow(dead_code, reason = "shared with the other examples")]
@@ -54,6 +62,7 @@ use std::error::Error;
 use std::fs;
 use std::io::Write as _;
 use std::process::ExitCode;
+use std::time::Instant;
 use words::Context;
 use work::Work;
 
@@ -63,7 +72,7 @@ fn main() -> ExitCode {
             say(command::HELP);
             Ok(())
         }
-        Ok(Request::Report(command)) => report(&command),
+        Ok(Request::Report(command)) => report(command),
         Err(usage) => Err(usage.into()),
     };
     match result {
@@ -79,19 +88,23 @@ fn main() -> ExitCode {
     }
 }
 
-fn report(command: &Command) -> Result<(), Box<dyn Error>> {
-    let suite = &command.suite;
+fn report(mut command: Command) -> Result<(), Box<dyn Error>> {
+    let start = Instant::now();
     fs::create_dir_all(command.out.join("runs")).map_err(|e| format!("--out {}: {e}", command.out.display()))?;
     let gpu = Gpu::new()?;
-    let mut work = Work::new(command, &gpu);
+    let dropped = budget::fit(&mut command, &gpu)?.into_iter().collect();
+    let (command, suite) = (&command, &command.suite);
+    let mut work = Work::new(command, &gpu, start, dropped);
     let chapters = suite.sequences.iter().filter_map(|sequence| work.chapter(sequence).transpose());
     let chapters = chapters.collect::<Result<Vec<_>, _>>()?;
+    let growth = command.growth.then(|| work.growth()).transpose()?;
     let dropped = work.finish();
     let rows: Vec<_> = chapters.iter().flat_map(|chapter| &chapter.summaries).flat_map(|s| s.rows.clone()).collect();
     write(command, "report.csv", &tables::csv(&rows))?;
     write(command, "report.json", &tables::json(&rows)?)?;
     let context = Context { facts: tables::facts(command, &gpu), dropped, paths: suite.paths };
-    write(command, "report.md", &words::report(&context, &chapters))?;
+    let text = words::report(&context, &chapters) + &growth.unwrap_or_default();
+    write(command, "report.md", &text)?;
     say(&format!("{}\n", command.out.join("report.md").display()));
     Ok(())
 }

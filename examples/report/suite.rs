@@ -1,11 +1,23 @@
 //! What is measured: sequences, methods, and how well.
 
+use crate::hash::root;
 use crate::methods::{self, Method};
 use crate::options::Source;
-use asvgf::scene::builtin;
+use asvgf::scene::builtin::ANIMATIONS;
+use std::path::Path;
 
 /// The built-in scenes' lamps and paths turn in this frame: blinking ones go out, moving ones go back.
 pub const TURN: u32 = 30;
+
+/// The scene with textures, a mask and gloss.
+const TEXTURED: &str = "assets/textured/room.glb";
+
+/// The scenes and their animations, the most telling first.
+const SCENES: [(&str, &[&str]); 3] =
+    [("cornell", &ANIMATIONS), ("pillars", &ANIMATIONS), ("textured", &["static", "move-camera"])];
+
+/// So many of a scene's animations are in the quick suite.
+const QUICK: usize = 3;
 
 pub struct Suite {
     pub name: &'static str,
@@ -38,34 +50,40 @@ impl Suite {
             frames: 16,
             paths: 256,
             repeats: 3,
-            sequences: ["static", "blink", "move-light"].map(|animation| built_in("cornell", animation)).to_vec(),
+            sequences: sequences("cornell", &ANIMATIONS[..QUICK]),
             methods: methods::quick(),
         }
     }
 
     /// For the record.
     pub fn full() -> Self {
-        let sequences = builtin::NAMES.iter().flat_map(|scene| builtin::ANIMATIONS.map(|a| built_in(scene, a)));
         Self {
             name: "full",
             size: [640, 360],
             frames: 32,
             paths: 8192,
             repeats: 5,
-            sequences: sequences.collect(),
+            sequences: SCENES.iter().flat_map(|(scene, animations)| sequences(scene, animations)).collect(),
             methods: methods::all(),
         }
     }
 
     /// Keeps the sequences of one scene; of a file there is one.
     pub fn only(&mut self, scene: &str) {
-        let animations: &[&str] =
-            if self.name == "quick" { &["static", "blink", "move-light"] } else { &builtin::ANIMATIONS };
-        self.sequences = if builtin::NAMES.contains(&scene) {
-            animations.iter().map(|animation| built_in(scene, animation)).collect()
-        } else {
-            let stem = std::path::Path::new(scene).file_stem().unwrap_or_default();
-            vec![Sequence { name: stem.to_string_lossy().into(), source: Source::File(scene.into()), animation: None }]
+        let known = SCENES.iter().find(|(name, _)| *name == scene);
+        self.sequences = match known {
+            Some((_, animations)) if self.name == "quick" => {
+                sequences(scene, &animations[..QUICK.min(animations.len())])
+            }
+            Some((_, animations)) => sequences(scene, animations),
+            None => {
+                let stem = Path::new(scene).file_stem().unwrap_or_default();
+                vec![Sequence {
+                    name: stem.to_string_lossy().into(),
+                    source: Source::File(scene.into()),
+                    animation: None,
+                }]
+            }
         };
     }
 
@@ -75,10 +93,16 @@ impl Suite {
     }
 }
 
-fn built_in(scene: &str, animation: &str) -> Sequence {
-    Sequence {
+/// A scene with each of some animations.
+fn sequences(scene: &str, animations: &[&str]) -> Vec<Sequence> {
+    let source = match scene {
+        "textured" => Source::File(root().join(TEXTURED)),
+        _ => Source::BuiltIn(scene.into()),
+    };
+    let sequence = |animation: &&str| Sequence {
         name: format!("{scene}-{animation}"),
-        source: Source::BuiltIn(scene.into()),
-        animation: Some(animation.into()),
-    }
+        source: source.clone(),
+        animation: Some(animation.to_string()),
+    };
+    animations.iter().map(sequence).collect()
 }

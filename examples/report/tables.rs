@@ -31,12 +31,6 @@ pub fn facts(command: &Command, gpu: &Gpu) -> Vec<String> {
     let suite = &command.suite;
     let ([width, height], adapter) = (suite.size, &gpu.adapter);
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let clock = match Clock::of(gpu) {
-        Clock::Timestamps => "GPU timestamps at the passes' boundaries",
-        Clock::Waiting => {
-            "the wall clock, each pass submitted and waited for by itself: this adapter has no honest timestamps"
-        }
-    };
     vec![
         format!(
             "Suite {}: {width}×{height}, frames {} to {}",
@@ -46,7 +40,7 @@ pub fn facts(command: &Command, gpu: &Gpu) -> Vec<String> {
         ),
         format!("References of {} paths per pixel, with random numbers of their own", suite.paths),
         format!("{} ({:?}), {} {}", adapter.name, adapter.backend, adapter.driver, adapter.driver_info),
-        format!("Times from {clock}"),
+        format!("Times from {}", Clock::of(gpu).name()),
         format!("`cargo run --release {FEATURES}--example report -- {}`", arguments.join(" ")),
         format!("Version {} of the crate", env!("CARGO_PKG_VERSION")),
     ]

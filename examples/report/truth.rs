@@ -4,8 +4,7 @@ use crate::export;
 use crate::film::Film;
 use crate::gpu::Gpu;
 use crate::hash::Hash;
-use crate::options::Options as Shown;
-use crate::stage::Stage;
+use crate::script::Script;
 use crate::suite::{Sequence, Suite};
 use crate::tracing::{self, Reference};
 use asvgf::image_io::{read_exr, write_exr_rgb};
@@ -19,12 +18,6 @@ pub const RELIT: f64 = 0.25;
 
 /// Part of the depth by which the same surface may differ, half a pixel aside.
 const SAME_DEPTH: f32 = 0.05;
-
-/// Where references are kept between reports.
-const FOLDER: &str = "target/references";
-
-/// The code that decides what converges: a filter may change without it.
-const TRACER: [&str; 4] = ["shaders/shared", "shaders/visibility.wgsl", "shaders/trace.wgsl", "src/scene"];
 
 pub type Rgb = [f32; 3];
 
@@ -60,21 +53,18 @@ impl Truth {
         export: Option<&Path>,
         mut done: impl FnMut(u32),
     ) -> Result<Self, Box<dyn Error>> {
-        let Sequence { source, animation, .. } = sequence.clone();
-        let stage = Stage::load(&Shown { source, animation, size: suite.size, ..Default::default() })?;
-        let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &stage.scene)?;
+        let script = Script::load(suite, sequence)?;
+        let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &script.stage.scene)?;
         let settings = Settings::adaptive();
-        let hash = Hash::of(&TRACER)?.and(&stage.scene).and(&settings.tracer).and(&suite.size).and(&suite.paths);
         let mut film = Film::new(gpu, suite.size, settings.clone())?;
         let mut reference = Reference::new(gpu, suite.size, &settings)?;
         let mut moments: Vec<Moment> = Vec::new();
         let mut seen = None;
         for index in suite.first()..suite.first() + suite.frames {
-            let pose = stage.pose(index);
-            let camera = stage.camera(&pose, index);
+            let (pose, camera) = script.frame(index);
             move_to(gpu, &mut scene, &pose)?;
             tracing::render(&mut film, &scene, camera, index)?;
-            let path = Path::new(FOLDER).join(format!("{}.exr", hash.and(&pose).and(&camera)));
+            let path = script.reference(&pose, &camera);
             let converged = match read_colors(&path, suite.size) {
                 Ok(colors) => colors,
                 // It is not there, or cannot be used.
@@ -82,7 +72,7 @@ impl Truth {
                     // Frames share their random numbers: what is traced depends on nothing that was traced before.
                     reference.rewind();
                     let colors = reference.converge(&scene, camera, suite.paths, |_| {})?;
-                    std::fs::create_dir_all(FOLDER)?;
+                    path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
                     write_exr_rgb(&path, suite.size[0], suite.size[1], &colors)?;
                     colors
                 }
@@ -102,7 +92,7 @@ impl Truth {
             let cameras: Vec<_> = moments.iter().map(|moment| moment.camera).collect();
             export::write_manifest(folder, suite.size, &cameras)?;
         }
-        Ok(Self { scene, moments, hash })
+        Ok(Self { scene, moments, hash: script.hash })
     }
 }
 

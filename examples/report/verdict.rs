@@ -1,5 +1,6 @@
 //! What the numbers say: who is best for the time, and how much faster.
 
+use crate::fit::{Power, line};
 use crate::methods::{CONTROL, DEFAULT, Group, ONE_PATH};
 use crate::summary::Summary;
 
@@ -59,25 +60,17 @@ pub fn equal_error(summaries: &[Summary], reference: u32) -> Option<SpeedUp> {
         _ => None,
     });
     let traced: Vec<_> = traced.filter(|&(_, (_, error))| error > floor).collect();
-    let errors: Vec<_> = traced.iter().map(|&(paths, (_, error))| (paths.ln(), (error - floor).ln())).collect();
+    let errors: Vec<_> = traced.iter().map(|&(paths, (_, error))| (paths, error - floor)).collect();
     let times: Vec<_> = traced.iter().map(|&(paths, (ms, _))| (paths, ms)).collect();
-    let (exponent, height) = line(&errors)?;
+    let power = Power::through(&errors)?;
     let (each, fixed) = line(&times)?;
-    if error <= floor || exponent >= 0.0 {
+    if error <= floor || power.exponent >= 0.0 {
         return None;
     }
-    let paths = (((error - floor).ln() - height) / exponent).exp();
+    let paths = ((error - floor) / power.factor).powf(1.0 / power.exponent);
     let ms = fixed + each * paths;
     let most = traced.iter().map(|&(paths, _)| paths).fold(0.0, f64::max);
     Some(SpeedUp { paths, ms, factor: ms / time, extrapolated: paths > most })
-}
-
-/// Slope and height at 0 of the line of least squares.
-fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
-    let n = points.len() as f64;
-    let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));
-    let (xx, xy) = points.iter().fold((0.0, 0.0), |(xx, xy), p| (xx + (p.0 - x).powi(2), xy + (p.0 - x) * (p.1 - y)));
-    (points.len() >= 2 && xx > 0.0).then(|| (xy / xx, y - xy / xx * x))
 }
 
 /// What the noise that is left in the references adds to every relative MSE: a mean of n paths has an n-th of the variance of one.

@@ -2,6 +2,8 @@
 
 use crate::command::Command;
 use crate::gpu::Gpu;
+use crate::growth::Growth;
+use crate::hash::Hash;
 use crate::measure::{self, Output};
 use crate::methods::{DEFAULT, Group, Method, ONE_PATH};
 use crate::record::Run;
@@ -9,17 +11,26 @@ use crate::suite::{Sequence, Suite, TURN};
 use crate::summary::Summary;
 use crate::truth::{self, Rgb, Truth};
 use crate::words::Chapter;
-use crate::{baseline, crops, plots, verdict};
+use crate::{baseline, budget, crops, plots, verdict, words_growth};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
-use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use std::{fs, io};
 
 /// The constant α that pictures show.
 const CONSTANT: &str = "svgf 0.2";
 /// The code that decides what a run is.
-const CODE: [&str; 3] = ["shaders", "src", "examples/report"];
+pub const CODE: [&str; 8] = [
+    "shaders",
+    "src",
+    "examples/report/measure.rs",
+    "examples/report/record.rs",
+    "examples/report/score.rs",
+    "examples/report/truth.rs",
+    "examples/support/film.rs",
+    "examples/support/times.rs",
+];
 /// The frame that pictures show, just after the turn.
 const SHOWN: u32 = TURN + 1;
 
@@ -36,11 +47,12 @@ pub struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    pub fn new(command: &'a Command, gpu: &'a Gpu) -> Self {
+    /// The budget is counted from a start on.
+    pub fn new(command: &'a Command, gpu: &'a Gpu, start: Instant, dropped: Vec<String>) -> Self {
         let suite = &command.suite;
-        let deadline = command.budget.map(|minutes| Instant::now() + Duration::from_secs_f64(60.0 * minutes));
+        let deadline = command.budget.map(|minutes| start + Duration::from_secs_f64(60.0 * minutes));
         let left = suite.sequences.len() * suite.methods.len();
-        Self { command, gpu, bar: progress(suite), deadline, left, dropped: Vec::new() }
+        Self { command, gpu, bar: progress(suite), deadline, left, dropped }
     }
 
     /// What there was no time for.
@@ -53,11 +65,12 @@ impl<'a> Work<'a> {
     pub fn chapter(&mut self, sequence: &Sequence) -> Result<Option<Chapter>, Box<dyn Error>> {
         let Command { suite, out, baselines, .. } = self.command;
         let name = sequence.name.clone();
-        let folder = out.join("runs").join(&name);
+        let runs = out.join("runs");
+        let folder = runs.join(&name);
         fs::create_dir_all(&folder)?;
         // What was kept takes no time.
         if self.time() == Some(Duration::ZERO) && fs::read_dir(&folder)?.next().is_none() {
-            self.dropped.push(format!("{name}: all of it"));
+            self.dropped.push(format!("{name} as a whole"));
             return Ok(None);
         }
         self.bar.set_message(format!("{name}: references"));
@@ -66,25 +79,20 @@ impl<'a> Work<'a> {
             fs::create_dir_all(folder)?;
         }
         let counting = |frames: u32| self.bar.inc(frames.into());
-        let mut truth = Truth::find(self.gpu, suite, sequence, export.as_deref(), counting)?;
-        let (mut summaries, mut missing) = (Vec::new(), Vec::new());
+        // Of each sequence's own: after some hundred compiled shaders lavapipe drops what it will need again, and a pass that has to be
+        // compiled in every frame takes ten times as long.
+        let gpu = Gpu::new()?;
+        let mut truth = Truth::find(&gpu, suite, sequence, export.as_deref(), counting)?;
+        let (mut summaries, mut repeats) = (Vec::new(), Vec::new());
         for method in &suite.methods {
             self.bar.set_message(format!("{name}: {}", method.name));
-            match self.run(&name, method, &mut truth, &folder)? {
-                Some(run) => {
-                    if run.repeats < suite.repeats {
-                        missing.push(format!("{} ({} repeats of {})", method.name, run.repeats, suite.repeats));
-                    }
-                    summaries.push(Summary::of(&run, &method.name, method.group));
-                }
-                None => missing.push(format!("{} (all of it)", method.name)),
-            }
+            let run = self.run(&gpu, &name, method, &mut truth, &runs)?;
+            repeats.push((method.name.as_str(), run.as_ref().map(|run| run.repeats)));
+            summaries.extend(run.map(|run| Summary::of(&run, &method.name, method.group)));
             self.left -= 1;
             self.bar.inc(suite.frames.into());
         }
-        if !missing.is_empty() {
-            self.dropped.push(format!("{name}: {}", missing.join(", ")));
-        }
+        self.dropped.extend(budget::shortfall(&name, &repeats, suite.repeats));
         let traced = verdict::find(&summaries, ONE_PATH).map_or(Vec::new(), |summary| summary.passes.clone());
         for baseline in baselines {
             if let Some(run) = baseline::run(baseline, &name, &truth.moments, suite.size, &traced)? {
@@ -96,6 +104,15 @@ impl<'a> Work<'a> {
         Ok(Some(Chapter { sequence: name, summaries, plots, picture }))
     }
 
+    /// Measures how cost grows, and draws it; returns it in words.
+    pub fn growth(&self) -> Result<String, Box<dyn Error>> {
+        let out = &self.command.out;
+        let next = |what: &str| self.bar.set_message(format!("growth: {what}"));
+        let growth = Growth::find(self.gpu, &out.join("runs/growth.json"), next)?;
+        let plots = plots::draw_growth(out, &growth)?;
+        Ok(words_growth::growth(&growth, &plots))
+    }
+
     /// Time that is left, if there is an end to it.
     fn time(&self) -> Option<Duration> {
         self.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()))
@@ -104,15 +121,15 @@ impl<'a> Work<'a> {
     /// A run that was kept, or a new one; `None` where there is no time for it.
     fn run(
         &self,
+        gpu: &Gpu,
         sequence: &str,
         method: &Method,
         truth: &mut Truth,
-        folder: &Path,
+        runs: &Path,
     ) -> Result<Option<Run>, Box<dyn Error>> {
         let Command { suite, .. } = self.command;
-        let key = truth.hash.and_files(&CODE)?.and(&method.settings).and(&suite.frames);
-        let key = key.and(&self.gpu.adapter.name).to_string();
-        let path = folder.join(format!("{}.json", method.name));
+        let key = key(truth.hash, suite, method, gpu)?;
+        let path = path(runs, sequence, method);
         // Without a budget, what an earlier one cut short is measured again.
         let complete = |run: &Run| self.deadline.is_some() || run.repeats >= suite.repeats;
         if let Some(run) = Run::load(&path, &key).filter(complete) {
@@ -124,11 +141,10 @@ impl<'a> Work<'a> {
             return Ok(None);
         }
         let share = time.map(|time| time / self.left as u32);
-        let Output { run, images } = measure::run(self.gpu, suite, truth, (sequence, method), key, share)?;
+        let Output { run, images } = measure::run(gpu, suite, truth, (sequence, method), key, share)?;
         if let Some(shown) = truth.moments.iter().position(|moment| moment.index == SHOWN) {
             let [width, height] = suite.size;
-            let path = folder.join(format!("{}.exr", method.name));
-            asvgf::image_io::write_exr_rgb(path, width, height, &images[shown])?;
+            asvgf::image_io::write_exr_rgb(path.with_extension("exr"), width, height, &images[shown])?;
         }
         run.save(&path)?;
         Ok(Some(run))
@@ -150,6 +166,17 @@ impl<'a> Work<'a> {
         crops::write(&self.command.out.join(&name), size, &tiles)?;
         Ok(Some(name))
     }
+}
+
+/// Everything that decides a run.
+pub fn key(scene: Hash, suite: &Suite, method: &Method, gpu: &Gpu) -> io::Result<String> {
+    let key = scene.and_files(&CODE)?.and(&method.settings).and(&suite.frames);
+    Ok(key.and(&gpu.adapter.name).to_string())
+}
+
+/// The file that a run is kept in.
+pub fn path(runs: &Path, sequence: &str, method: &Method) -> PathBuf {
+    runs.join(sequence).join(format!("{}.json", method.name))
 }
 
 /// A bar of frames, references included. It does not show where there is no terminal.

@@ -1,10 +1,9 @@
 //! A denoiser with its targets: records frames, waits for them, and hands out their pixels.
 
 use crate::gpu::Gpu;
-use crate::times::{Clock, PassTimes};
+use crate::times::{Clock, PassTimes, Stopwatch};
 use asvgf::wgpu::{CommandEncoder, TextureFormat, TextureView};
 use asvgf::{Denoiser, DenoiserDescriptor, Error, Pass, Settings, View, ViewOptions};
-use std::time::Instant;
 
 /// What the denoiser calls after each pass, so that it can be submitted by itself.
 pub type After<'a> = &'a mut dyn FnMut(Pass, &mut CommandEncoder);
@@ -47,13 +46,13 @@ impl<'a> Film<'a> {
         let new_encoder = || gpu.device.create_command_encoder(&Default::default());
         let mut encoder = new_encoder();
         let mut times = PassTimes::new();
-        let mut start = Instant::now();
+        let mut watch = Stopwatch::start(self.clock);
         let mut after = |pass: Pass, encoder: &mut CommandEncoder| {
-            if self.clock == Clock::Waiting {
+            if self.clock != Clock::Timestamps {
                 gpu.queue.submit([std::mem::replace(encoder, new_encoder()).finish()]);
                 gpu.wait();
-                times.push((pass.name(), start.elapsed().as_secs_f64() * 1e3));
-                start = Instant::now();
+                times.push((pass.name(), watch.read()));
+                watch = Stopwatch::start(self.clock);
             }
         };
         record(&mut self.denoiser, &mut encoder, &self.target, &mut after)?;

@@ -2,7 +2,9 @@
 
 use crate::gpu::Gpu;
 use asvgf::wgpu::{DeviceType, Features};
+use cpu_time::ProcessTime;
 use std::fmt::Write as _;
+use std::time::Instant;
 
 /// Frames that are not counted: shaders are compiled and caches filled during the first ones.
 const WARM_UP: usize = 3;
@@ -15,16 +17,53 @@ pub type PassTimes = Vec<(&'static str, f64)>;
 pub enum Clock {
     /// By the GPU, at the passes' boundaries.
     Timestamps,
-    /// By the CPU, each pass submitted and waited for by itself: software adapters run all passes when they are waited for,
-    /// and so stamp them wrongly.
-    Waiting,
+    /// By the processor, where it is the adapter: such adapters run all passes when they are waited for, and so stamp them wrongly.
+    Processor,
+    /// By the clock on the wall, where a GPU has no timestamps.
+    Wall,
 }
 
 impl Clock {
     /// The honest clock for an adapter.
     pub fn of(gpu: &Gpu) -> Self {
-        let stamps = gpu.device.features().contains(Features::TIMESTAMP_QUERY);
-        if stamps && gpu.adapter.device_type != DeviceType::Cpu { Self::Timestamps } else { Self::Waiting }
+        match gpu.adapter.device_type {
+            DeviceType::Cpu => Self::Processor,
+            _ if gpu.device.features().contains(Features::TIMESTAMP_QUERY) => Self::Timestamps,
+            _ => Self::Wall,
+        }
+    }
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Timestamps => "GPU timestamps at the passes' boundaries",
+            Self::Processor => {
+                "processor time of all threads over the number of cores, each pass waited for by itself: this adapter is the CPU"
+            }
+            Self::Wall => "the wall clock, each pass waited for by itself: this adapter has no timestamps",
+        }
+    }
+}
+
+/// Times work that is waited for, where there are no timestamps.
+pub enum Stopwatch {
+    /// On an idle machine the time on the wall, and on a busy one disturbed less.
+    Processor(ProcessTime),
+    Wall(Instant),
+}
+
+impl Stopwatch {
+    pub fn start(clock: Clock) -> Self {
+        if clock == Clock::Processor { Self::Processor(ProcessTime::now()) } else { Self::Wall(Instant::now()) }
+    }
+
+    /// Milliseconds since the start.
+    pub fn read(&self) -> f64 {
+        let cores = || std::thread::available_parallelism().map_or(1.0, |n| n.get() as f64);
+        match self {
+            Self::Processor(start) => start.elapsed().as_secs_f64() * 1e3 / cores(),
+            Self::Wall(start) => start.elapsed().as_secs_f64() * 1e3,
+        }
     }
 }
 
@@ -52,12 +91,8 @@ pub fn table(frames: &[PassTimes], rays: Option<f64>, [width, height]: [u32; 2],
         let _ = writeln!(out, "{label:<24}{ms:>10.3}{:>7.1} %", 100.0 * ms / total.max(1e-9));
     }
     let _ = writeln!(out, "{:<24}{total:>10.3}", "all");
-    let clock = match Clock::of(gpu) {
-        Clock::Timestamps => "GPU timestamps at the passes' boundaries",
-        Clock::Waiting => "each pass submitted and waited for by itself, as this adapter has no honest timestamps",
-    };
     let _ = writeln!(out, "Medians of {} frames of {width}×{height} after {skipped} to warm up.", counted.len());
-    let _ = writeln!(out, "Measured by {clock}.");
+    let _ = writeln!(out, "Measured by {}.", Clock::of(gpu).name());
     let traced = typical(&["visibility", "trace"]) * 1e-3;
     if let Some(rays) = rays.filter(|_| traced > 0.0) {
         let (million, speed) = (rays * 1e-6, rays * 1e-6 / traced);
@@ -72,7 +107,8 @@ pub fn table(frames: &[PassTimes], rays: Option<f64>, [width, height]: [u32; 2],
     out
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+/// 0 of nothing.
+pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;
     match values.len() {

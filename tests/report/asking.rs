@@ -1,6 +1,7 @@
 //! The command line.
 
 use crate::command::{Command, Request, parse};
+use crate::script::Script;
 
 fn command(line: &str) -> Result<Command, String> {
     match parse(line.split_whitespace().map(Into::into)) {
@@ -15,12 +16,12 @@ fn nothing_said_is_the_quick_suite() {
     let command = command("").unwrap();
     assert_eq!((command.suite.name, command.suite.size, command.budget), ("quick", [96, 54], None));
     assert_eq!(command.suite.sequences.len(), 3);
-    assert!(command.baselines.is_empty() && !command.export);
+    assert!(command.baselines.is_empty() && !command.export && !command.growth);
 }
 
 #[test]
 fn everything_said() {
-    let line = "--size 64x48 --paths 99 --suite full --scene pillars --budget 5 --out there --baseline a=b/c --baseline d=e --sequences";
+    let line = "--size 64x48 --paths 99 --suite full --scene pillars --budget 5 --out there --baseline a=b/c --baseline d=e --sequences --growth --repeats 0";
     let command = command(line).unwrap();
     assert_eq!((command.suite.name, command.suite.size, command.budget), ("full", [64, 48], Some(5.0)));
     assert_eq!(command.suite.paths, 99);
@@ -30,7 +31,8 @@ fn everything_said() {
     assert_eq!(command.out.to_str(), Some("there"));
     let baselines: Vec<_> = command.baselines.iter().map(|b| (b.name.as_str(), b.folder.to_str())).collect();
     assert_eq!(baselines, [("a", Some("b/c")), ("d", Some("e"))]);
-    assert!(command.export);
+    assert!(command.export && command.growth);
+    assert_eq!(command.suite.repeats, 0);
 }
 
 #[test]
@@ -38,6 +40,21 @@ fn a_file_is_one_sequence() {
     let command = command("--scene some/Helmet.gltf").unwrap();
     assert_eq!(command.suite.sequences.len(), 1);
     assert_eq!(command.suite.sequences[0].name, "Helmet");
+}
+
+#[test]
+fn the_full_suite_has_three_scenes() {
+    let command = command("--suite full").unwrap();
+    let of = |scene: &str| command.suite.sequences.iter().filter(|s| s.name.starts_with(scene)).count();
+    assert_eq!(["cornell-", "pillars-", "textured-"].map(of), [6, 6, 2]);
+    // Animations are looked for in the file, which is there.
+    let textured = command.suite.sequences.iter().filter(|s| s.name.starts_with("textured-"));
+    for sequence in textured {
+        let script = Script::load(&command.suite, sequence).unwrap();
+        let [first, last] = [command.suite.first(), command.suite.first() + command.suite.frames - 1];
+        let moves = script.frame(first) != script.frame(last);
+        assert_eq!(moves, sequence.name.ends_with("move-camera"), "{}", sequence.name);
+    }
 }
 
 #[test]

@@ -6,6 +6,8 @@
 mod arguments;
 #[path = "../../examples/report/baseline.rs"]
 mod baseline;
+#[path = "../../examples/report/budget.rs"]
+mod budget;
 #[path = "../../examples/support/camera.rs"]
 mod camera;
 #[path = "../../examples/report/canvas.rs"]
@@ -18,10 +20,16 @@ mod crops;
 mod export;
 #[path = "../../examples/support/film.rs"]
 mod film;
+#[path = "../../examples/report/fit.rs"]
+mod fit;
 #[path = "../../examples/support/gpu.rs"]
 mod gpu;
+#[path = "../../examples/report/growth.rs"]
+mod growth;
 #[path = "../../examples/report/hash.rs"]
 mod hash;
+#[path = "../../examples/report/keep.rs"]
+mod keep;
 #[path = "../../examples/support/layers.rs"]
 mod layers;
 #[path = "../../examples/report/measure.rs"]
@@ -30,12 +38,16 @@ mod measure;
 mod methods;
 #[path = "../../examples/support/options.rs"]
 mod options;
+#[path = "../../examples/report/pace.rs"]
+mod pace;
 #[path = "../../examples/report/plots/mod.rs"]
 mod plots;
 #[path = "../../examples/report/record.rs"]
 mod record;
 #[path = "../../examples/report/score.rs"]
 mod score;
+#[path = "../../examples/report/script.rs"]
+mod script;
 #[path = "../../examples/support/stage.rs"]
 mod stage;
 #[path = "../../examples/report/suite.rs"]
@@ -44,6 +56,8 @@ mod suite;
 mod summary;
 #[path = "../../examples/report/tables.rs"]
 mod tables;
+#[path = "../../examples/report/tessellation.rs"]
+mod tessellation;
 #[path = "../../examples/support/times.rs"]
 mod times;
 #[path = "../../examples/support/tone.rs"]
@@ -56,8 +70,14 @@ mod truth;
 mod verdict;
 #[path = "../../examples/report/words.rs"]
 mod words;
+#[path = "../../examples/report/words_growth.rs"]
+mod words_growth;
+#[path = "../../examples/report/work.rs"]
+mod work;
 
 mod asking;
+mod budgeting;
+mod growing;
 mod keeping;
 mod listing;
 mod measuring;

@@ -50,7 +50,7 @@ fn free([x, y]: [i32; 2], labels: &[[i32; 2]]) -> [i32; 2] {
 }
 
 /// A number that begins with 1, 2 or 5; the others would stand too close.
-fn sparse(value: &f64) -> String {
+pub fn sparse(value: &f64) -> String {
     let digit = value / 10_f64.powf((value.log10() + 1e-9).floor());
     let round = [1.0, 2.0, 5.0].iter().any(|first| (digit - first).abs() < 1e-6);
     if round { format!("{}", (value * 1e9).round() / 1e9) } else { String::new() }

@@ -3,14 +3,17 @@
 mod ablation;
 mod curves;
 mod error_time;
+mod growth;
 mod passes;
 
 use crate::canvas::{Canvas, Ink};
+use crate::growth::{Cost, Growth};
 use crate::methods::Group;
 use crate::summary::Summary;
 use ablation::Ablation;
 use curves::Curves;
 use error_time::ErrorTime;
+use growth::Growing;
 use passes::Passes;
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
@@ -76,6 +79,37 @@ pub fn draw(folder: &Path, sequence: &str, summaries: &[Summary]) -> Result<Vec<
     Ok(names.to_vec())
 }
 
+/// Draws how cost grows; returns the names of the files, without their ending.
+pub fn draw_growth(folder: &Path, growth: &Growth) -> Result<Vec<String>, Box<dyn Error>> {
+    let pixels = |cost: &Cost| f64::from(cost.size[0] * cost.size[1]);
+    let sizes = |number: fn(&Cost) -> f64| growth.sizes.iter().map(|cost| (pixels(cost), number(cost))).collect();
+    let trees = growth.with_trees().map(|cost| (cost.triangles as f64, cost.tracing)).collect();
+    let plots = [
+        (
+            "growth-time",
+            "Time against pixels",
+            ["pixels", "milliseconds per frame"],
+            vec![("filter", sizes(|cost| cost.filter)), ("tracing", sizes(|cost| cost.tracing))],
+        ),
+        (
+            "growth-memory",
+            "Memory against pixels",
+            ["pixels", "bytes of the denoiser's images"],
+            vec![("images", sizes(|cost| cost.images as f64))],
+        ),
+        (
+            "growth-triangles",
+            "Time against triangles",
+            ["triangles", "milliseconds of tracing per frame"],
+            vec![("tracing", trees)],
+        ),
+    ];
+    for (name, caption, axes, curves) in plots.iter().cloned() {
+        Growing { caption, axes, curves }.save(&folder.join(name))?;
+    }
+    Ok(plots.iter().map(|(name, ..)| name.to_string()).collect())
+}
+
 type Chart<'a, B, Y> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, Y>>;
 
 /// A chart for one bar for each name, from above.
@@ -109,8 +143,8 @@ fn span(row: usize, rows: usize) -> [f64; 2] {
 }
 
 /// Says which colour is what.
-fn legend<'a, B: DrawingBackend<ErrorType: 'static> + 'a, Y: Ranged<ValueType = f64>>(
-    chart: &mut Chart<'a, B, Y>,
+fn legend<'a, B: DrawingBackend<ErrorType: 'static> + 'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
+    chart: &mut ChartContext<'a, B, Cartesian2d<X, Y>>,
 ) -> Drawn {
     let labels = &mut chart.configure_series_labels();
     labels.position(SeriesLabelPosition::UpperRight).label_font(LEGEND);

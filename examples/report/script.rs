@@ -1,0 +1,44 @@
+//! A sequence before anything is traced: where everything is in its frames, and how their references are called.
+
+use crate::hash::Hash;
+use crate::options::Options as Shown;
+use crate::stage::Stage;
+use crate::suite::{Sequence, Suite};
+use asvgf::scene::Pose;
+use asvgf::{Camera, Settings};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// Where references are kept between reports.
+const FOLDER: &str = "target/references";
+
+/// The code that decides what converges: a filter may change without it.
+const TRACER: [&str; 4] = ["shaders/shared", "shaders/visibility.wgsl", "shaders/trace.wgsl", "src/scene"];
+
+pub struct Script {
+    pub stage: Stage,
+    /// Of the scene and all settings that references depend on.
+    pub hash: Hash,
+}
+
+impl Script {
+    pub fn load(suite: &Suite, sequence: &Sequence) -> Result<Self, Box<dyn Error>> {
+        let Sequence { source, animation, .. } = sequence.clone();
+        let stage = Stage::load(&Shown { source, animation, size: suite.size, ..Default::default() })?;
+        let tracer = Settings::adaptive().tracer;
+        let hash = Hash::of(&TRACER)?.and(&stage.scene).and(&tracer).and(&suite.size).and(&suite.paths);
+        Ok(Self { stage, hash })
+    }
+
+    /// Where everything is in a frame, and from where it is seen.
+    pub fn frame(&self, index: u32) -> (Pose, Camera) {
+        let pose = self.stage.pose(index);
+        let camera = self.stage.camera(&pose, index);
+        (pose, camera)
+    }
+
+    /// The file that a frame's reference is kept in. Frames that look the same share theirs.
+    pub fn reference(&self, pose: &Pose, camera: &Camera) -> PathBuf {
+        Path::new(FOLDER).join(format!("{}.exr", self.hash.and(pose).and(camera)))
+    }
+}
