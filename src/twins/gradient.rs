@@ -145,8 +145,8 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
                     let largest = taps.iter().map(|t| given[t.0][channel]).fold(0.0, f64::max);
                     // Colours have 18 bits of the largest channel.
                     let brightest = match channel {
-                        0..3 => (0..3).map(mean).fold(0.0, f64::max),
-                        4..7 => (4..7).map(mean).fold(0.0, f64::max),
+                        0..=2 => (0..3).map(mean).fold(0.0, f64::max),
+                        4..=6 => (4..7).map(mean).fold(0.0, f64::max),
                         _ => 0.0,
                     };
                     let tolerance = 2e-4 * largest + brightest * 2.0_f64.powi(-17);
