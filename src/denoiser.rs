@@ -201,7 +201,7 @@ impl Denoiser {
         let traits = self.traits(scene);
         self.every_change().iter().try_for_each(|&changes| {
             let plan = self.adapt(Plan::path_traced(&traits, &self.settings, changes, target));
-            self.compile(&plan.steps, scene.traversal())
+            self.compile(&plan.steps, scene.traversal(&traits))
         })
     }
 
@@ -353,7 +353,8 @@ impl Denoiser {
             Changes::ANY => most.clone(),
             changes => self.adapt(Plan::path_traced(&traits, &self.settings, changes, format)),
         };
-        self.compile(&plan.steps, scene.traversal())?;
+        let traversal = scene.traversal(&traits);
+        self.compile(&plan.steps, traversal)?;
         let previous = last.map_or(camera, |l| l.camera);
         let moment = Moment { camera, previous, index, continued, lambda_block: 1, converges: plan.converges() };
         let uniform = self.frame_uniform(device, &moment);
@@ -362,8 +363,7 @@ impl Denoiser {
         self.textures.place(device, self.size, &plan, (0, plan.steps.len()), &most);
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
         let given = |name: &str| scene.resource(name);
-        let resources =
-            Resources { traversal: scene.traversal(), target: Some(target), ..Resources::new(&given, &uniform) };
+        let resources = Resources { traversal, target: Some(target), ..Resources::new(&given, &uniform) };
         self.record(device, encoder, &plan.steps, &resources, &mut queries, &mut after)?;
         if let (Some(timing), Some(queries)) = (&self.timing, queries) {
             timing.end(device, encoder, queries);

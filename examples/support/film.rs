@@ -19,14 +19,14 @@ pub struct Film<'a> {
 
 impl<'a> Film<'a> {
     pub fn new(gpu: &'a Gpu, size: [u32; 2], settings: Settings) -> Result<Self, Error> {
+        Self::of(gpu, DenoiserDescriptor { size, settings, views: true, ..Default::default() })
+    }
+
+    /// With a denoiser of a kind of its own.
+    pub fn of(gpu: &'a Gpu, descriptor: DenoiserDescriptor) -> Result<Self, Error> {
         let clock = Clock::of(gpu);
-        let descriptor = DenoiserDescriptor {
-            size,
-            settings,
-            timing: clock == Clock::Timestamps,
-            views: true,
-            ..Default::default()
-        };
+        let size = descriptor.size;
+        let descriptor = DenoiserDescriptor { timing: clock == Clock::Timestamps, ..descriptor };
         Ok(Self {
             gpu,
             denoiser: Denoiser::new(&gpu.device, &gpu.queue, &descriptor)?,

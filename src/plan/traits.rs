@@ -32,11 +32,12 @@ impl Traits {
         Self {
             textures: true,
             specular: true,
-            // Where each triangle is tested, none may have holes.
-            alpha_mask: !self.few_triangles,
+            alpha_mask: true,
             emitters: true,
             punctual_lights: true,
             unlit: true,
+            // A tree suits any scene.
+            few_triangles: false,
             ..self
         }
     }

@@ -308,9 +308,11 @@ impl GpuScene {
             return wrong("emission or intensity".into(), "is negative or not finite");
         }
         let before = std::mem::replace(&mut self.pose, pose.clone());
-        let changed = before != *pose;
+        // Nodes where there is something to see: a camera that moves changes nothing for what is seen.
+        let placed = self.instances.iter().filter_map(|i| i.node).chain(self.punctual.iter().map(|p| p.node));
+        let moves = placed.into_iter().any(|node| before.world[node] != pose.world[node]);
+        let changed = moves || before.emission != pose.emission || before.intensity != pose.intensity;
         // One frame more than the movement lasts, so that what has stopped is where it was.
-        let moves = before.world != pose.world;
         if self.traits.instanced && (moves || self.moved) {
             let (placements, _) = placements(&mut self.header, true, &self.instances, &self.pose, &before);
             self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
@@ -361,11 +363,13 @@ impl GpuScene {
         self.moved
     }
 
-    /// How rays find their triangles.
-    pub(crate) fn traversal(&self) -> Traversal {
-        match self.few {
-            Some(_) => Traversal::Every { triangles: (self.buffers.facets.size() / size_of::<Facet>() as u64) as u32 },
-            None => Traversal::Tree { stack: self.stack },
+    /// How rays find their triangles in shaders for these traits, the scene's or more.
+    pub(crate) fn traversal(&self, traits: &Traits) -> Traversal {
+        match &self.few {
+            Some(_) if traits.few_triangles => {
+                Traversal::Every { triangles: (self.buffers.facets.size() / size_of::<Facet>() as u64) as u32 }
+            }
+            _ => Traversal::Tree { stack: self.stack },
         }
     }
 

@@ -134,7 +134,8 @@ fn ask_gpu(scene: &GpuScene, queries: &[Query]) -> Vec<Answer> {
     let traits = scene.traits();
     let features = [(Feature::Instanced, traits.instanced), (Feature::FewTriangles, traits.few_triangles)];
     let features: Features = features.into_iter().filter(|(_, on)| *on).map(|(f, _)| f).collect();
-    let permutation = Permutation { pass: Pass::Visibility, features, traversal: scene.traversal(), view: 0 };
+    let permutation =
+        Permutation { pass: Pass::Visibility, features, traversal: scene.traversal(&scene.traits()), view: 0 };
     let module = Shaders::new().and_then(|mut s| s.compose_source(include_str!("traversal.wgsl"), permutation));
     let module = module.unwrap_or_else(|e| panic!("{e}"));
     let used = used_bindings(&module).unwrap();

@@ -1,0 +1,112 @@
+//! What leaving out saves: `cargo bench --bench leaving_out [-- FRAMES]`.
+//!
+//! For each scene, from everything compiled in and nothing known to be unchanged down to the least: dispatches, bytes per pixel of
+//! the denoiser's images, milliseconds of a frame's passes, and of the first frame, in which its shaders are compiled. On an adapter
+//! that is the CPU, milliseconds are processor time over the number of cores. Set `MESA_SHADER_CACHE_DISABLE=1` there: compiled
+//! shaders are else kept from run to run. Compare only figures of one run.
+
+#[path = "../examples/support/film.rs"]
+#[allow(dead_code, reason = "shared with the examples")]
+mod film;
+#[path = "../examples/support/gpu.rs"]
+#[allow(dead_code, reason = "shared with the examples")]
+mod gpu;
+#[path = "../examples/support/times.rs"]
+#[allow(dead_code, reason = "shared with the examples")]
+mod times;
+
+use asvgf::scene::{self, GpuScene, builtin};
+use asvgf::{Camera, DenoiserDescriptor, FilterSettings, Frame, Gradient, Settings, Specialize};
+use film::Film;
+use gpu::Gpu;
+use std::path::Path;
+use times::{Clock, Stopwatch, median};
+
+const SIZE: [u32; 2] = [320, 180];
+
+/// Frames before the first that counts: of the first one all may have changed, and only the second is known to be still.
+const WARM_UP: usize = 3;
+
+/// What is left out, and what changes from frame to frame.
+struct Case {
+    name: &'static str,
+    specialize: Specialize,
+    filter: FilterSettings,
+    /// One of the built-in scenes' animations.
+    animation: &'static str,
+}
+
+fn cases() -> Vec<Case> {
+    let filter = FilterSettings::default;
+    let case = |name, specialize, filter, animation| Case { name, specialize, filter, animation };
+    let constant = FilterSettings { gradient: Gradient::Off, ..filter() };
+    let temporal = FilterSettings { iterations: 0, ..constant.clone() };
+    let exactly = Specialize::Exactly;
+    vec![
+        case("everything compiled in", Specialize::Everything, filter(), "move-light"),
+        case("what the scene has", exactly, filter(), "move-light"),
+        case("… only the camera moves", exactly, filter(), "move-camera"),
+        case("… nothing changes", exactly, filter(), "static"),
+        case("… constant α", exactly, constant, "move-light"),
+        case("… and no spatial iterations", exactly, temporal.clone(), "move-light"),
+        case("… and nothing changes", exactly, temporal, "static"),
+    ]
+}
+
+fn main() {
+    let frames = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(15);
+    let gpu = Gpu::new().unwrap_or_else(|e| {
+        eprintln!("{e}");
+        std::process::exit(1);
+    });
+    println!("{} ({}, {:?})", gpu.adapter.name, gpu.adapter.driver_info, gpu.adapter.backend);
+    println!("{}×{}, medians of {frames} frames; {}", SIZE[0], SIZE[1], Clock::of(&gpu).name());
+    for name in ["cornell", "pillars", "textured"] {
+        println!("\n{name:<30}{:>11}{:>13}{:>9}{:>16}", "dispatches", "bytes/pixel", "ms", "first frame, ms");
+        for case in cases() {
+            // A device of its own: lavapipe forgets shaders when a device has many.
+            let gpu = Gpu::new().expect("there was an adapter");
+            println!("{:<30}{}", case.name, row(&gpu, name, &case, frames));
+        }
+    }
+}
+
+/// Dispatches, bytes per pixel, milliseconds of a frame and of the first.
+fn row(gpu: &Gpu, name: &str, case: &Case, frames: usize) -> String {
+    let scene = builtin::scene(name, case.animation).unwrap_or_else(|| {
+        let room = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/textured/room.glb");
+        scene::load(&room).expect("the crate's own scene").scene
+    });
+    let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).expect("it fits");
+    let settings = Settings { filter: case.filter.clone(), ..Settings::adaptive() };
+    let descriptor = DenoiserDescriptor { size: SIZE, settings, specialize: case.specialize, ..Default::default() };
+    let mut film = Film::of(gpu, descriptor).expect("a denoiser");
+    let first = Stopwatch::start(Clock::of(gpu));
+    let mut compiled = 0.0;
+    let mut times = Vec::new();
+    for index in 0..WARM_UP + frames {
+        // The file has a camera that moves, and lamps of which one blinks here.
+        let still = case.animation == "static";
+        let mut pose = scene.pose(Some(0), if still { 0.0 } else { index as f32 / 30.0 });
+        if case.animation == "move-light" && index % 2 == 1 {
+            pose.emission.iter_mut().for_each(|factor| *factor *= 0.9);
+        }
+        let view = scene.camera_node().and_then(|n| scene.camera_view(&pose, n)).expect("a camera");
+        let camera = Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] };
+        let device = &gpu.device;
+        let uploaded = &mut uploaded;
+        let passes = film.expose(|denoiser, encoder, target, after| {
+            uploaded.update(device, encoder, &pose).expect("a pose of the scene");
+            let frame = Frame { scene: uploaded, camera, index: index as u32, target };
+            denoiser.render_stepwise(device, encoder, &frame, after)
+        });
+        times.push(passes.expect("a frame").iter().map(|(_, ms)| ms).sum());
+        if index == 0 {
+            compiled = first.read();
+        }
+    }
+    let plan = film.denoiser.plan().expect("a frame was rendered");
+    let bytes = film.denoiser.memory() as f64 / f64::from(SIZE[0] * SIZE[1]);
+    let ms = median(times.split_off(WARM_UP));
+    format!("{:>11}{bytes:>13.1}{ms:>9.1}{compiled:>16.0}", plan.steps.len())
+}
