@@ -72,7 +72,8 @@ fn what_is_cut_is_the_same_surface() {
     }
 }
 
-/// A filter that takes a microsecond per pixel, and tracing that takes ten times as long for a hundred times the triangles.
+/// A filter that takes a microsecond per pixel, and tracing that takes ten times as long for a hundred times the
+/// triangles.
 fn measured() -> Growth {
     let cost = |width: u32, triangles: usize| {
         let pixels = f64::from(width * 100);
