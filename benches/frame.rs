@@ -1,7 +1,7 @@
 //! What a frame costs: `cargo bench --bench frame [-- [FRAMES] [CASE]]`; CASE is a part of a case's name, as printed.
 //!
-//! Prints the adapter and how times are taken, then for each case the median over the frames of each pass, and rays per second.
-//! Compare only figures of one run.
+//! Prints the adapter and how times are taken, then for each case the median over the frames of each pass, and rays per
+//! second. Compare only figures of one run.
 
 #[allow(dead_code, reason = "shared with the examples")]
 #[path = "../examples/support/film.rs"]

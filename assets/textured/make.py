@@ -1,7 +1,8 @@
 """Makes room.glb, the report's scene with textures: python3 make.py
 
-Everything in it comes from this file, which needs nothing but Python: planks, wallpaper, a rug, a plant whose leaves are cut out by
-alpha, a globe of gold and glaze by a metallic-roughness texture, a lamp in the ceiling, and a camera that goes aside and back.
+Everything in it comes from this file, which needs nothing but Python: planks, wallpaper, a rug, a plant whose leaves are
+cut out by alpha, a globe of gold and glaze by a metallic-roughness texture, a lamp in the ceiling, and a camera that goes
+aside and back.
 """
 import json
 import math

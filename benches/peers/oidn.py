@@ -57,7 +57,7 @@ def run(folder, out, quality, averaged):
         filtered = lambda: denoise(np.ascontiguousarray(history), **guides, hdr=True, quality=quality)
         if not times:
             filtered()  # warms up
-        # OIDN has images of NumPy on the processor: the time of all threads over the cores, which other work disturbs less.
+        # OIDN has NumPy's images on the processor: the time of all threads over the cores, which other work disturbs less.
         start = time.process_time()
         image = filtered()
         times.append(1e3 * (time.process_time() - start) / os.cpu_count())

@@ -1,4 +1,5 @@
-//! What fits into a budget. Repeats are dropped first, within each run; then sizes, here; then methods, at the end of the list.
+//! What fits into a budget. Repeats are dropped first, within each run; then sizes, here; then methods, from the end of
+//! the list.
 
 use crate::command::Command;
 use crate::gpu::Gpu;
@@ -49,7 +50,8 @@ impl Pace {
     }
 }
 
-/// The first of a size, its half, its quarter, … at which a load is done in time, at a pace that was measured at the size as it is.
+/// The first of a size, its half, its quarter, … at which a load is done in time, at a pace that was measured at the size
+/// as it is.
 pub fn size(full: [u32; 2], seconds: f64, pace: &Pace, mut load: impl FnMut([u32; 2]) -> Load) -> [u32; 2] {
     let mut size = full;
     loop {
@@ -84,7 +86,8 @@ pub fn fit(command: &mut Command, gpu: &Gpu) -> Result<Option<String>, Box<dyn E
     let would = pace.seconds(&all, 1.0) / 60.0;
     let [[width, height], [less_width, less_height]] = [full, chosen];
     let dropped = format!(
-        "size: at {width}×{height} all of it would take about {would:.0} minutes once through, so it is {less_width}×{less_height}"
+        "size: at {width}×{height} all of it would take about {would:.0} minutes once through, so it is \
+         {less_width}×{less_height}"
     );
     failure.map_or(Ok((chosen != full).then_some(dropped)), Err)
 }

@@ -50,7 +50,7 @@ pub struct Cost {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Growth {
     /// Hash of everything that decides it.
-    key: String,
+    pub key: String,
     /// The same scene in images of several sizes.
     pub sizes: Vec<Cost>,
     /// Images of one size of the same scene in more and more triangles.

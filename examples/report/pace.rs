@@ -29,8 +29,8 @@ pub fn measure(gpu: &Gpu, suite: &Suite) -> Result<Pace, Box<dyn Error>> {
     Ok(Pace { run, filtered, path: traced / f64::from(PATHS), scored: scored(suite, image)? })
 }
 
-/// Seconds until the first frame that counts, less those of the frames before it, and seconds of a frame, on the wall's clock as a
-/// budget is; and the last frame's image.
+/// Seconds until the first frame that counts, less those of the frames before it, and seconds of a frame, on the wall's
+/// clock as a budget is; and the last frame's image.
 fn frame(gpu: &Gpu, suite: &Suite, settings: Settings) -> Result<(f64, f64, Vec<Rgb>), Box<dyn Error>> {
     let script = Script::load(suite, &suite.sequences[0])?;
     let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &script.stage.scene)?;

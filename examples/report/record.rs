@@ -1,5 +1,6 @@
 //! What was measured, as it is kept in files.
 
+use crate::keep;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -71,15 +72,11 @@ pub struct Run {
 impl Run {
     /// One that was kept, if everything that decides it is the same.
     pub fn load(path: &Path, key: &str) -> Option<Self> {
-        let run: Self = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
-        (run.key == key).then_some(run)
+        keep::load(path).filter(|run: &Self| run.key == key)
     }
 
-    /// Written elsewhere first, so that an interruption leaves no half of it.
     pub fn save(&self, path: &Path) -> Result<(), Box<dyn std::error::Error>> {
-        let unfinished = path.with_extension("tmp");
-        std::fs::write(&unfinished, serde_json::to_vec(self)?)?;
-        Ok(std::fs::rename(unfinished, path)?)
+        keep::save(self, path)
     }
 }
 

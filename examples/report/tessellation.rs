@@ -2,7 +2,8 @@
 
 use asvgf::scene::{Mesh, Scene};
 
-/// Cuts each triangle that does not emit into n², all of one shape. Lights stay as they are: more of them would be another scene.
+/// Cuts each triangle that does not emit into n², all of one shape. Lights stay as they are: more of them would be another
+/// scene.
 pub fn tessellated(scene: &Scene, n: u32) -> Scene {
     let mut scene = scene.clone();
     for mesh in &mut scene.meshes {

@@ -17,7 +17,8 @@ pub type PassTimes = Vec<(&'static str, f64)>;
 pub enum Clock {
     /// By the GPU, at the passes' boundaries.
     Timestamps,
-    /// By the processor, where it is the adapter: such adapters run all passes when they are waited for, and so stamp them wrongly.
+    /// By the processor, where it is the adapter: such adapters run all passes when they are waited for, and so stamp them
+    /// wrongly.
     Processor,
     /// By the clock on the wall, where a GPU has no timestamps.
     Wall,
@@ -38,7 +39,7 @@ impl Clock {
         match self {
             Self::Timestamps => "GPU timestamps at the passes' boundaries",
             Self::Processor => {
-                "processor time of all threads over the number of cores, each pass waited for by itself: this adapter is the CPU"
+                "processor time of all threads over the cores, each pass waited for by itself: this adapter is the CPU"
             }
             Self::Wall => "the wall clock, each pass waited for by itself: this adapter has no timestamps",
         }

@@ -21,7 +21,8 @@ fn nothing_said_is_the_quick_suite() {
 
 #[test]
 fn everything_said() {
-    let line = "--size 64x48 --paths 99 --suite full --scene pillars --budget 5 --out there --baseline a=b/c --baseline d=e --sequences --growth --repeats 0";
+    let line = "--size 64x48 --paths 99 --suite full --scene pillars --budget 5 --out there --baseline a=b/c \
+                --baseline d=e --sequences --growth --repeats 0";
     let command = command(line).unwrap();
     assert_eq!((command.suite.name, command.suite.size, command.budget), ("full", [64, 48], Some(5.0)));
     assert_eq!(command.suite.paths, 99);
