@@ -1,4 +1,4 @@
-//! Makes the corpora that fuzzing starts from: `cargo run --bin seeds -- FOLDER_OF_SCENES`.
+//! Makes the corpora that fuzzing starts from: `cargo run --example seeds -- FOLDER_OF_SCENES`.
 
 use asvgf::image_io::{Channels, write_exr};
 use asvgf_fuzz::NEXT_FILE;
