@@ -5,6 +5,7 @@ use crate::camera::Camera;
 use crate::camera::CameraUniform;
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::counts::{Counters, InputCounts};
+use crate::gpu::filled::filled;
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::textures::{Textures, strata};
@@ -21,7 +22,6 @@ use crate::settings::Settings;
 use crate::settings::{Gradient, Mode};
 use crate::{Error, View, ViewOptions};
 use std::collections::HashMap;
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
     BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, DeviceType,
     Features, Limits, Queue, TextureFormat, TextureUsages, TextureView,
@@ -161,11 +161,7 @@ impl Denoiser {
             shaders: ShadersDebug(Shaders::new()?),
             kernels: HashMap::new(),
             textures: Textures::default(),
-            strides: device.create_buffer_init(&BufferInitDescriptor {
-                label: Some("asvgf strides"),
-                contents: &strides,
-                usage: BufferUsages::UNIFORM,
-            }),
+            strides: filled(device, "asvgf strides", &strides, BufferUsages::UNIFORM),
             on_cpu: device.adapter_info().device_type == DeviceType::Cpu,
             timing: descriptor.timing.then(|| Timing::new(queue)),
             counters: descriptor.diagnostics.then(Counters::default),
@@ -333,11 +329,8 @@ impl Denoiser {
         let step = passes::view::step(view, &last.plan, self.settings.mode, format);
         let result = step.and_then(|step| {
             self.compile(device, std::slice::from_ref(&step), Traversal::default())?;
-            let show = device.create_buffer_init(&BufferInitDescriptor {
-                label: Some("asvgf view"),
-                contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
-                usage: BufferUsages::UNIFORM,
-            });
+            let numbers = [options.exposure, options.range, 0.0, 0.0];
+            let show = filled(device, "asvgf view", bytemuck::cast_slice(&numbers), BufferUsages::UNIFORM);
             let none = |_: &str| None;
             let resources =
                 Resources { target: Some(target), show: Some(&show), ..Resources::new(&none, &last.uniform) };
@@ -349,11 +342,8 @@ impl Denoiser {
 
     /// One frame's constants: a buffer of its own, as other frames may be recorded before this one is submitted.
     pub(crate) fn frame_uniform(&self, device: &Device, moment: &Moment) -> Buffer {
-        device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("asvgf frame"),
-            contents: bytemuck::bytes_of(&FrameUniform::new(self.size, moment, &self.settings)),
-            usage: BufferUsages::UNIFORM,
-        })
+        let uniform = FrameUniform::new(self.size, moment, &self.settings);
+        filled(device, "asvgf frame", bytemuck::bytes_of(&uniform), BufferUsages::UNIFORM)
     }
 
     /// Records steps that are compiled.

@@ -34,7 +34,8 @@ on two cores of a software adapter). With the beginning of a group's title, only
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let (options, names): (Vec<&str>, Vec<&str>) = arguments.iter().map(String::as_str).partition(|a| a.starts_with('-'));
+    let (options, names): (Vec<&str>, Vec<&str>) =
+        arguments.iter().map(String::as_str).partition(|a| a.starts_with('-'));
     if options.iter().any(|option| *option != "--long") || names.len() > 1 {
         eprint!("{HELP}");
         return ExitCode::from(2);

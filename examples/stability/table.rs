@@ -22,7 +22,9 @@ pub struct Table {
 impl Table {
     /// Measures the cases of a group and prints each row as it is known.
     pub fn group(&mut self, title: &str, cases: &[Case]) {
-        let head = format!("\n### {title}\n\n| case | varied over | measured | | bound, and why | margin | breaking point |\n|---|---|---|---|---|---|---|\n");
+        let head = format!(
+            "\n### {title}\n\n| case | varied over | measured | | bound, and why | margin | breaking point |\n|---|---|---|---|---|---|---|\n"
+        );
         print!("{head}");
         self.text += &head;
         for case in cases {
@@ -61,7 +63,11 @@ impl Table {
             return;
         };
         let mut new = old[..start + MARKS[0].len()].to_owned();
-        let _ = write!(new, "{} cases of {} inputs, {} beyond their bound.\n{}\n", self.cases, self.inputs, self.broken, self.text);
+        let _ = write!(
+            new,
+            "{} cases of {} inputs, {} beyond their bound.\n{}\n",
+            self.cases, self.inputs, self.broken, self.text
+        );
         new += &old[end..];
         match std::fs::write(&path, new) {
             Ok(()) => println!("\nin {FILE}"),

@@ -2,6 +2,7 @@
 //! that comes from theory or from a reference. The example `stability` prints the same rows, and the long ones.
 #![cfg(feature = "path-tracer")]
 
+#[allow(dead_code, reason = "shared with other tests, which use the rest")]
 #[path = "../common/mod.rs"]
 mod common;
 
@@ -15,10 +16,16 @@ fn assert_bounds(cases: &[Case]) {
         .iter()
         .filter_map(|case| {
             let found = (case.measure)();
-            println!("{}: {:.3e} of {:.3e}, {} inputs, worst at {}", case.name, found.value, case.bound, found.inputs, found.at);
+            println!(
+                "{}: {:.3e} of {:.3e}, {} inputs, worst at {}",
+                case.name, found.value, case.bound, found.inputs, found.at
+            );
             assert!(found.inputs > 0, "{} measured nothing", case.name);
             (found.value > case.bound).then(|| {
-                format!("{}: {} is {}, above {} ({}), at {}", case.name, case.quantity, found.value, case.bound, case.origin, found.at)
+                format!(
+                    "{}: {} is {}, above {} ({}), at {}",
+                    case.name, case.quantity, found.value, case.bound, case.origin, found.at
+                )
             })
         })
         .collect();

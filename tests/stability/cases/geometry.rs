@@ -1,6 +1,6 @@
 //! Shapes, sizes and places of surfaces, in a white furnace.
 
-use super::furnace::{ROUNDING, darkest, white};
+use super::furnace::{Furnace, ROUNDING, white};
 use super::{Breaks, Case, Worst};
 use crate::common::scenes::quad;
 use asvgf::Camera;
@@ -11,7 +11,8 @@ const SIZE: [u32; 2] = [32, 24];
 
 /// What every case of this group measures.
 const QUANTITY: &str = "largest difference of a pixel from 1";
-const ORIGIN: &str = "a convex white surface under a white sky reflects 1, and no ray may meet the surface that it left";
+const ORIGIN: &str =
+    "a convex white surface under a white sky reflects 1, and no ray may meet the surface that it left";
 
 pub const CASES: &[Case] = &[
     Case {
@@ -101,8 +102,7 @@ pub const CASES: &[Case] = &[
 fn ball(radius: f32, centre: [f32; 3]) -> Mesh {
     let (rings, sectors) = (12_u32, 30_u32);
     let point = |ring: u32, sector: u32| {
-        let (polar, azimuth) =
-            (PI * ring as f32 / rings as f32, 2.0 * PI * (sector % sectors) as f32 / sectors as f32);
+        let (polar, azimuth) = (PI * ring as f32 / rings as f32, 2.0 * PI * (sector % sectors) as f32 / sectors as f32);
         let unit = [polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin()];
         [0, 1, 2].map(|i| centre[i] + radius * unit[i])
     };
@@ -125,61 +125,69 @@ fn looking(eye: [f32; 3]) -> Camera {
     Camera { eye, target: [eye[0], eye[1], eye[2] - eye[2].abs().max(1.0)], ..Default::default() }
 }
 
-fn at_scale(scale: f32) -> f64 {
+fn at_scale(furnace: &mut Furnace, scale: f32) -> f64 {
     let eye = [0.3 * scale, 0.2 * scale, 3.0 * scale];
     let camera = |_| Camera { eye, target: [0.0; 3], ..Default::default() };
     let scenes = [white(vec![ball(scale, [0.0; 3])]), white(vec![plane(scale, [0.0; 3])])];
-    scenes.into_iter().map(|scene| darkest(scene, SIZE, 3, camera)).fold(0.0, f64::max)
+    scenes.into_iter().map(|scene| furnace.darkest(scene, 3, camera)).fold(0.0, f64::max)
 }
 
 fn scales() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
     for power in [-5, -3, -1, 0, 2, 4, 7] {
         let scale = 10.0_f32.powi(power);
-        worst.add(at_scale(scale), || format!("10^{power}"));
+        worst.add(at_scale(&mut furnace, scale), || format!("10^{power}"));
     }
     worst
 }
 
 fn scales_break() -> String {
-    let find = |step: i32| (1..=30).map(|n| n * step).find(|&power| at_scale(10.0_f32.powi(power)) > ROUNDING);
+    let mut furnace = Furnace::new(SIZE);
+    let mut find =
+        |step: i32| (1..=30).map(|n| n * step).find(|&power| at_scale(&mut furnace, 10.0_f32.powi(power)) > ROUNDING);
     let tell = |power: Option<i32>| power.map_or("none".into(), |p| format!("10^{p}"));
-    format!("below {}, above {}", tell(find(-1)), tell(find(1)))
+    let [small, large] = [-1, 1].map(|step| tell(find(step)));
+    format!("{small}, {large}")
 }
 
-fn away(distance: f32) -> f64 {
+fn away(furnace: &mut Furnace, distance: f32) -> f64 {
     let place = [distance, 0.0, 0.0];
     let eye = [distance, 0.0, 12.0];
-    darkest(white(vec![plane(5.0, place)]), SIZE, 3, |_| looking(eye))
+    furnace.darkest(white(vec![plane(5.0, place)]), 3, |_| looking(eye))
 }
 
 fn far_away() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
     for distance in [0.0, 1e2, 1e3, 1e4, 1e5, 1e6] {
-        worst.add(away(distance), || format!("{distance:e} away"));
+        worst.add(away(&mut furnace, distance), || format!("{distance:e} away"));
     }
     worst
 }
 
 fn far_away_break() -> String {
+    let mut furnace = Furnace::new(SIZE);
     (6..=12)
         .map(|power| 10.0_f32.powi(power))
-        .find(|&d| away(d) > ROUNDING)
+        .find(|&d| away(&mut furnace, d) > ROUNDING)
         .map_or("none up to 10¹²".into(), |d| format!("{d:e} away"))
 }
 
 fn depths() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
     // Each a little to the side, so that all are seen.
     let planes = [1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6, 1e8_f32].into_iter().enumerate().map(|(i, z)| {
         let x = z * (0.16 * i as f32 - 0.5);
         plane(0.07 * z, [x, 0.0, -z])
     });
-    worst.add(darkest(white(planes.collect()), SIZE, 4, |_| looking([0.0; 3])), || "all".into());
+    worst.add(furnace.darkest(white(planes.collect()), 4, |_| looking([0.0; 3])), || "all".into());
     worst
 }
 
 fn grazing() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
     for degrees in [10.0, 1.0, 0.1, 0.01, 0.001_f32] {
         let height = 10.0 * degrees.to_radians().tan();
@@ -191,12 +199,13 @@ fn grazing() -> Worst {
             fov_y: (2.0 * degrees).to_radians(),
             ..Default::default()
         };
-        worst.add(darkest(white(vec![floor]), SIZE, 3, camera), || format!("{degrees}°"));
+        worst.add(furnace.darkest(white(vec![floor]), 3, camera), || format!("{degrees}°"));
     }
     worst
 }
 
 fn degenerate() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
     let kinds: [(&str, fn(&mut Mesh)); 4] = [
         ("zero area", |m| {
@@ -221,7 +230,7 @@ fn degenerate() -> Worst {
         let mut mesh = ball(1.0, [0.0; 3]);
         spoil(&mut mesh);
         let camera = |_| Camera { eye: [0.4, 0.3, 3.0], target: [0.0; 3], ..Default::default() };
-        worst.add(darkest(white(vec![mesh]), SIZE, 3, camera), || name.into());
+        worst.add(furnace.darkest(white(vec![mesh]), 3, camera), || name.into());
     }
     worst
 }
@@ -237,17 +246,20 @@ fn triangles(count: u32, one_place: bool) -> Scene {
 }
 
 fn counts() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
     let kinds = [0, 1, 2, 3, 4, 1000].map(|n| (n, false)).into_iter().chain([(1000, true)]);
     for (count, one_place) in kinds {
         let scene = triangles(count, one_place);
-        let value = darkest(scene, SIZE, 2, |_| looking([0.0, 0.0, 3.0]));
+        let value = furnace.darkest(scene, 2, |_| looking([0.0, 0.0, 3.0]));
         worst.add(value, || format!("{count} triangles, in one place: {one_place}"));
     }
     worst
 }
 
 fn awkward() -> Worst {
+    // Odd, so that the middle pixel's ray is the axis itself.
+    let mut furnace = Furnace::new([33, 25]);
     let mut worst = Worst::default();
     let eyes = [
         ("on a corner", [1.0, 1.0, 0.0], [0.0, 0.0, -1.0]),
@@ -257,15 +269,15 @@ fn awkward() -> Worst {
         ("along an axis at the diagonal", [0.0, 0.0, 3.0], [0.0, 0.0, 0.0]),
     ];
     for (name, eye, target) in eyes {
-        // Odd, so that the middle pixel's ray is the axis itself.
         let camera = |_| Camera { eye, target, ..Default::default() };
-        let value = darkest(white(vec![plane(1.0, [0.0; 3])]), [33, 25], 3, camera);
+        let value = furnace.darkest(white(vec![plane(1.0, [0.0; 3])]), 3, camera);
         worst.add(value, || name.into());
     }
     worst
 }
 
 fn sub_pixel() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
     // At distance 5, a pixel is 5 · 2 · tan(0.4) / 24 ≈ 0.18 wide.
     for pixels in [1.0, 0.3, 0.1_f32] {
@@ -274,16 +286,17 @@ fn sub_pixel() -> Worst {
         // Thirds and quarters: all twelve places in twelve frames.
         let jitter = |frame: u32| [(frame % 3) as f32 / 3.0 - 0.33, (frame % 4) as f32 / 4.0 - 0.375];
         let camera = |frame| Camera { jitter: jitter(frame), ..looking([0.0, 0.0, 5.0]) };
-        worst.add(darkest(white((0..400).map(card).collect()), SIZE, 24, camera), || format!("{pixels} pixels"));
+        worst.add(furnace.darkest(white((0..400).map(card).collect()), 24, camera), || format!("{pixels} pixels"));
     }
     worst
 }
 
 fn fields_of_view() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
     for fov_y in [1e-6, 1e-3, 1.0, PI - 1e-3, PI - 1e-6] {
         let camera = |_| Camera { eye: [0.3, 0.2, 3.0], target: [0.0; 3], fov_y, ..Default::default() };
-        worst.add(darkest(white(vec![plane(1.0, [0.0; 3])]), SIZE, 3, camera), || format!("{fov_y} rad"));
+        worst.add(furnace.darkest(white(vec![plane(1.0, [0.0; 3])]), 3, camera), || format!("{fov_y} rad"));
     }
     worst
 }

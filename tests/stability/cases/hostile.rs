@@ -41,8 +41,7 @@ pub const CASES: &[Case] = &[
 ];
 
 const KINDS: [f32; 7] = [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, -1e30, f32::MAX];
-const SURFACE_KINDS: [f32; 9] =
-    [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -1.0, 1e-42, 1e-30, 1e30, f32::MAX];
+const SURFACE_KINDS: [f32; 9] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -1.0, 1e-42, 1e-30, 1e30, f32::MAX];
 
 /// A view and a way to spoil a pixel of it.
 type Spoil = (&'static str, fn(&mut Views, usize, f32));
@@ -61,11 +60,8 @@ const SURFACE: [Spoil; 4] = [
 ];
 
 /// Which pixels are spoilt.
-const PLACES: [(&str, fn(usize) -> bool); 3] = [
-    ("a pixel", |i| i == 100),
-    ("a block", |i| i % 24 < 6 && i / 24 < 9),
-    ("everywhere", |_| true),
-];
+const PLACES: [(&str, fn(usize) -> bool); 3] =
+    [("a pixel", |i| i == 100), ("a block", |i| i % 24 < 6 && i / 24 < 9), ("everywhere", |_| true)];
 
 fn noisy(path: &Path) -> Rgb {
     grey(path.noise())
@@ -84,8 +80,9 @@ fn counts(host: &mut Painted) -> InputCounts {
 }
 
 /// Filters eight frames of which some are spoilt: pixels that cannot be shown, and miscounts.
-fn spoilt(frames: u32, spoil: Spoil, value: f32, hit: fn(usize) -> bool) -> f64 {
-    let mut host = Painted::new(SIZE, adaptive());
+fn spoilt(host: &mut Painted, frames: u32, spoil: Spoil, value: f32, hit: fn(usize) -> bool) -> f64 {
+    host.denoiser.reset();
+    host.index = 0;
     let mut broken = 0.0;
     for frame in 0..8 {
         let mut views = host.views(&noisy);
@@ -93,7 +90,7 @@ fn spoilt(frames: u32, spoil: Spoil, value: f32, hit: fn(usize) -> bool) -> f64 
         let chosen: Vec<usize> = (0..views.depth.len()).filter(|&i| bad && hit(i)).collect();
         chosen.iter().for_each(|&i| spoil.1(&mut views, i, value));
         broken += unusable(&host.denoise(&views)) as f64;
-        let found = counts(&mut host);
+        let found = counts(host);
         let number = |is: bool| if is { chosen.len() as f64 } else { 0.0 };
         let is_light = LIGHT.iter().any(|(name, _)| *name == spoil.0);
         let expected = [
@@ -116,12 +113,13 @@ fn spoilt(frames: u32, spoil: Spoil, value: f32, hit: fn(usize) -> bool) -> f64 
 
 fn each(spoils: &[Spoil], kinds: &[f32]) -> Worst {
     let mut worst = Worst::default();
+    let mut host = Painted::new(SIZE, adaptive());
     for &spoil in spoils {
         for &value in kinds {
             for (place, hit) in PLACES {
                 // In each of four frames is the harder one; singly, one kind tells.
                 for frames in if value.is_nan() { &[1, 4][..] } else { &[4] } {
-                    worst.add(spoilt(*frames, spoil, value, hit), || {
+                    worst.add(spoilt(&mut host, *frames, spoil, value, hit), || {
                         format!("{value:e} in {}, {place}, {frames} frames", spoil.0)
                     });
                 }

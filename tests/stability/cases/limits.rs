@@ -3,9 +3,7 @@
 
 use super::{Breaks, Case, Worst};
 use asvgf::scene::{GpuScene, builtin};
-use asvgf::{
-    Camera, Denoiser, DenoiserDescriptor, Error, Frame, Settings, Shading, Surfaces, View, ViewOptions,
-};
+use asvgf::{Camera, Denoiser, DenoiserDescriptor, Error, Frame, Settings, Shading, Surfaces, View, ViewOptions};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -40,7 +38,9 @@ pub const CASES: &[Case] = &[
         bound: 0.0,
         origin: "core limits of WebGPU",
         measure: large,
-        breaks: Breaks::Known("memory: an image that does not fit is reported by the device as out of memory, and panics nowhere"),
+        breaks: Breaks::Known(
+            "memory: an image that does not fit is reported by the device as out of memory, and panics nowhere",
+        ),
     },
 ];
 

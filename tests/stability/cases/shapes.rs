@@ -1,6 +1,6 @@
 //! Sizes of the image. Any following any other is in tests/gpu/behaviour/lifecycle.rs.
 
-use super::furnace::{ROUNDING, darkest, white};
+use super::furnace::{Furnace, ROUNDING, white};
 use super::painted::{Painted, adaptive, grey};
 use super::{Breaks, Case, Worst};
 use crate::common::scenes::quad;
@@ -52,10 +52,12 @@ const SIZES: [[u32; 2]; 20] = [
 
 fn traced() -> Worst {
     let mut worst = Worst::default();
+    let mut furnace = Furnace::new([4, 4]);
     for size in SIZES {
         let plane = quad([-1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0);
         let camera = |_| Camera { eye: [0.2, 0.1, 2.0], target: [0.0; 3], ..Default::default() };
-        worst.add(darkest(white(vec![plane]), size, 3, camera), || format!("{size:?}"));
+        furnace.resize(size);
+        worst.add(furnace.darkest(white(vec![plane]), 3, camera), || format!("{size:?}"));
     }
     worst
 }
