@@ -2,7 +2,7 @@
 //! them) and, for λ, in src/twins/temporal.rs.
 
 use super::painted::{Painted, Path, Views, adaptive, grey};
-use super::{Breaks, Case, Worst, difference, unusable};
+use super::{Breaks, Case, Named, Worst, difference, unusable};
 use crate::common::gpu::gpu;
 use crate::common::statistics::Rgb;
 use asvgf::{InputCounts, View};
@@ -44,7 +44,7 @@ const KINDS: [f32; 7] = [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 
 const SURFACE_KINDS: [f32; 9] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -1.0, 1e-42, 1e-30, 1e30, f32::MAX];
 
 /// A view and a way to spoil a pixel of it.
-type Spoil = (&'static str, fn(&mut Views, usize, f32));
+type Spoil = Named<fn(&mut Views, usize, f32)>;
 
 const LIGHT: [Spoil; 3] = [
     ("radiance", |v, i, x| v.radiance[i][i % 3] = x),
@@ -60,7 +60,9 @@ const SURFACE: [Spoil; 4] = [
 ];
 
 /// Which pixels are spoilt.
-const PLACES: [(&str, fn(usize) -> bool); 3] =
+type Hit = fn(usize) -> bool;
+
+const PLACES: [Named<Hit>; 3] =
     [("a pixel", |i| i == 100), ("a block", |i| i % 24 < 6 && i / 24 < 9), ("everywhere", |_| true)];
 
 fn noisy(path: &Path) -> Rgb {
@@ -80,7 +82,7 @@ fn counts(host: &mut Painted) -> InputCounts {
 }
 
 /// Filters eight frames of which some are spoilt: pixels that cannot be shown, and miscounts.
-fn spoilt(host: &mut Painted, frames: u32, spoil: Spoil, value: f32, hit: fn(usize) -> bool) -> f64 {
+fn spoilt(host: &mut Painted, frames: u32, spoil: Spoil, value: f32, hit: Hit) -> f64 {
     host.denoiser.reset();
     host.index = 0;
     let mut broken = 0.0;

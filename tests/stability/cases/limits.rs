@@ -1,7 +1,7 @@
 //! Devices that are lost or offer too little. What is refused of views, sizes, settings and cameras is in the files named
 //! `refusals.rs`.
 
-use super::{Breaks, Case, Worst};
+use super::{Breaks, Case, Named, Worst};
 use asvgf::scene::{GpuScene, builtin};
 use asvgf::{Camera, Denoiser, DenoiserDescriptor, Error, Frame, Settings, Shading, Surfaces, View, ViewOptions};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -155,7 +155,7 @@ fn lost() -> Worst {
 }
 
 /// A limit's name and how to lower it.
-type Lower = (&'static str, fn(&mut Limits));
+type Lower = Named<fn(&mut Limits)>;
 
 const LIMITS: [Lower; 10] = [
     ("max_texture_dimension_2d", |l| l.max_texture_dimension_2d -= 1),

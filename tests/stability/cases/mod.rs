@@ -13,6 +13,7 @@ pub mod shapes;
 use crate::common::statistics::Rgb;
 
 /// One row of the table.
+#[allow(dead_code, reason = "the test asserts bounds, the example tells of all")]
 pub struct Case {
     pub name: &'static str,
     /// What is varied, over which range.
@@ -37,6 +38,9 @@ pub enum Breaks {
     /// Where a search finds it.
     Found(fn() -> String),
 }
+
+/// Something and what to call it.
+pub type Named<T> = (&'static str, T);
 
 /// The worst of several measurements.
 #[derive(Clone, Debug, Default)]

@@ -1,7 +1,7 @@
 //! The range of radiance.
 
 use super::painted::{Painted, Path, adaptive, grey};
-use super::{Breaks, Case, Worst, unusable};
+use super::{Breaks, Case, Named, Worst, unusable};
 use crate::common::statistics::{Rgb, luminance, mean};
 use asvgf::View;
 use std::ops::Range;
@@ -294,7 +294,8 @@ fn next_to_nothing() -> Worst {
 
 fn huge() -> Worst {
     let mut worst = Worst::default();
-    let places: [(&str, fn([u32; 2]) -> bool); 3] =
+    type Hit = fn([u32; 2]) -> bool;
+    let places: [Named<Hit>; 3] =
         [("a pixel", |p| p == [5, 5]), ("a block", |p| p[0] < 9 && p[1] < 9), ("everywhere", |_| true)];
     for level in [1e10, 1e15, 1e19, 1e30, 3.4e38] {
         for (name, hit) in places {
