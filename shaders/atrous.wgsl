@@ -83,7 +83,8 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, ke
     // 0.1 % of the depth is what a surface seen face on (∇z = 0) is allowed.
     let slope = abs(dot(c.depth_gradient, vec2<f32>(offset))) * frame.sigma_depth + 1e-3 * c.plane.depth;
     let exponent = abs(depth - c.plane.depth) / slope + abs(difference) * c.variance;
-    let w = kernel * pow(clamp(cosine, 0.0, 1.0), frame.sigma_normal) * exp(-exponent);
+    // Above 0, as pow(0, 0) may be anything, and σ = 0 is to stop nothing.
+    let w = kernel * pow(clamp(cosine, 1e-9, 1.0), frame.sigma_normal) * exp(-exponent);
 #else
     // Squared difference less the noise that both ends are known to have: what is left is signal.
     let noise = c.variance + sample_variance;

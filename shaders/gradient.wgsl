@@ -55,9 +55,10 @@ fn history_ratio(stratum: vec2<i32>) -> HistoryRatio {
     let before = pair.before;
     let l = luminance(now.xyz);
     let l_before = luminance(before.xyz);
-    // A prior towards 1 in proportion to what there was; in full darkness there is nothing to scale.
+    // A prior towards 1 in proportion to what there was; in full darkness, or what is as good as that, there is nothing to scale,
+    // and a quotient whose square is infinite says no more.
     let e = frame.ratio_prior * l_before;
-    if max(l, l_before) <= DARK || l_before + e <= 0.0 {
+    if max(l, l_before) <= DARK || l_before <= 1e-6 * l {
         return HistoryRatio(vec4(1.0), 0.0, max(l, l_before));
     }
     let luminance_ratio = quotient(l + e, l_before + e);

@@ -2,7 +2,7 @@
 // the strata. See gradient.wgsl for what becomes of them.
 
 #import asvgf::frame::{frame, inside}
-#import asvgf::color::{is_finite, luminance}
+#import asvgf::color::{BRIGHTEST, is_finite, luminance}
 #import asvgf::packing::pack_rgb
 #ifdef DIAGNOSTICS
 #import asvgf::counts::counts
@@ -89,8 +89,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         before = p / divisor;
     }
     textureStore(samples_out, stratum, record);
-    textureStore(pair_now_out, stratum, vec4(pack_rgb(min(now, vec3(1e30))), 0u, 0u));
-    textureStore(pair_before_out, stratum, vec4(pack_rgb(min(before, vec3(1e30))), 0u, 0u));
+    textureStore(pair_now_out, stratum, vec4(pack_rgb(min(now, vec3(BRIGHTEST))), 0u, 0u));
+    textureStore(pair_before_out, stratum, vec4(pack_rgb(min(before, vec3(BRIGHTEST))), 0u, 0u));
 #ifdef DIAGNOSTICS
     if broken {
         atomicAdd(&counts.pairs, 1u);

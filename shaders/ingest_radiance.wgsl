@@ -2,7 +2,7 @@
 // detail of textures is blurred, and cleaned before it reaches history.
 
 #import asvgf::frame::inside
-#import asvgf::color::{is_finite, sanitize}
+#import asvgf::color::{BRIGHTEST, is_finite, sanitize}
 #import asvgf::packing::pack_rgb
 #ifdef ALBEDO
 #import asvgf::packing::round_to_f16
@@ -79,7 +79,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     textureStore(albedo_out, pixel, vec4(a, 0.0));
 #endif
-    textureStore(radiance_out, pixel, vec4(pack_rgb(min(r, vec3(1e30))), 0u, 0u));
+    textureStore(radiance_out, pixel, vec4(pack_rgb(min(r, vec3(BRIGHTEST))), 0u, 0u));
 #ifdef DIAGNOSTICS
     if not_finite {
         atomicAdd(&counts.non_finite, 1u);

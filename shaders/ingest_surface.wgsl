@@ -35,6 +35,10 @@
 @group(0) @binding(7) var guide_out: texture_storage_2d<rg32uint, write>;
 @group(0) @binding(8) var motion_out: texture_storage_2d<rg32uint, write>;
 
+// Depths of surfaces. Some renderers give their sky f32's largest number; within these the square of a depth is a normal number.
+const NEAREST: f32 = 1e-18;
+const FARTHEST: f32 = 1e18;
+
 // Where a point is put that had no place in the previous image: far outside.
 const NOWHERE: vec2<f32> = vec2(-1e9);
 
@@ -60,7 +64,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let z = textureLoad(depth, pixel, 0).x;
-    let hit = is_finite(z) && z > 0.0;
+    let hit = is_finite(z) && z >= NEAREST && z <= FARTHEST;
     let n = normal_at(pixel);
     let squared = dot(n, n);
     // Any length is taken but none: a renderer that clears its normals to zero means that there is no surface.

@@ -19,7 +19,7 @@
 #import asvgf::light::sample_light
 #endif
 #import asvgf::scene::{NO_TRIANGLE, geometry_word, instance_numbers, scene}
-#import asvgf::color::{luminance, sanitize}
+#import asvgf::color::{BRIGHTEST, luminance, sanitize}
 #import asvgf::packing::pack_rgb
 #ifdef RESHADE
 #import asvgf::strata::{is_sample_pixel, previous_pixel, stratum_of}
@@ -193,5 +193,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         sum += sanitize(path(s, seed_of(seed_pixel, seed_frame, i, frame.seed)));
     }
     textureStore(albedo_out, pixel, vec4(albedo, f32(rays)));
-    textureStore(radiance_out, pixel, vec4(pack_rgb(sum / (f32(frame.samples) * demodulation(s))), 0u, 0u));
+    let demodulated = sum / (f32(frame.samples) * demodulation(s));
+    textureStore(radiance_out, pixel, vec4(pack_rgb(min(demodulated, vec3(BRIGHTEST))), 0u, 0u));
 }

@@ -5,6 +5,7 @@ use crate::camera::Camera;
 use crate::camera::CameraUniform;
 use crate::gpu::compose::Permutation;
 use crate::gpu::counts::{Counters, InputCounts};
+use crate::gpu::filled::filled;
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::pipelines::Pipelines;
 use crate::gpu::textures::Textures;
@@ -20,7 +21,6 @@ use crate::settings::Settings;
 #[cfg(feature = "path-tracer")]
 use crate::settings::{Gradient, Mode, TracerSettings};
 use crate::{Error, View, ViewOptions};
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
     BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, DeviceType,
     Features, Limits, Queue, TextureFormat, TextureUsages, TextureView,
@@ -176,11 +176,7 @@ impl Denoiser {
             settings: descriptor.settings.clone(),
             pipelines,
             textures: Textures::new(descriptor.views),
-            strides: device.create_buffer_init(&BufferInitDescriptor {
-                label: Some("asvgf strides"),
-                contents: &strides,
-                usage: BufferUsages::UNIFORM,
-            }),
+            strides: filled(device, "asvgf strides", &strides, BufferUsages::UNIFORM),
             on_cpu: device.adapter_info().device_type == DeviceType::Cpu,
             specialize: descriptor.specialize,
             timing: descriptor.timing.then(|| Timing::new(queue)),
@@ -423,11 +419,8 @@ impl Denoiser {
         let step = passes::view::step(view, &last.plan, self.settings.mode, format, |image| self.textures.holds(image));
         let result = step.and_then(|step| {
             self.compile(std::slice::from_ref(&step), Traversal::default())?;
-            let show = device.create_buffer_init(&BufferInitDescriptor {
-                label: Some("asvgf view"),
-                contents: bytemuck::cast_slice(&[options.exposure, options.range, 0.0, 0.0]),
-                usage: BufferUsages::UNIFORM,
-            });
+            let numbers = [options.exposure, options.range, 0.0, 0.0];
+            let show = filled(device, "asvgf view", bytemuck::cast_slice(&numbers), BufferUsages::UNIFORM);
             let none = |_: &str| None;
             let resources =
                 Resources { target: Some(target), show: Some(&show), ..Resources::new(&none, &last.uniform) };
@@ -439,11 +432,8 @@ impl Denoiser {
 
     /// One frame's constants: a buffer of its own, as other frames may be recorded before this one is submitted.
     pub(crate) fn frame_uniform(&self, device: &Device, moment: &Moment) -> Buffer {
-        device.create_buffer_init(&BufferInitDescriptor {
-            label: Some("asvgf frame"),
-            contents: bytemuck::bytes_of(&FrameUniform::new(self.size, moment, &self.settings)),
-            usage: BufferUsages::UNIFORM,
-        })
+        let uniform = FrameUniform::new(self.size, moment, &self.settings);
+        filled(device, "asvgf frame", bytemuck::bytes_of(&uniform), BufferUsages::UNIFORM)
     }
 
     /// Records steps that are compiled.

@@ -11,8 +11,12 @@ fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
 }
 
+// The brightest that enters the filter. Its square, weighted and summed over strata and rescaled by ratios, is far below f32's
+// 3·10³⁸: an infinite variance would become 0·∞, which is NaN, and stay in the history.
+const BRIGHTEST: f32 = 1e15;
+
 // A radiance that may enter history: not finite or negative becomes 0, channel by channel.
 fn sanitize(color: vec3<f32>) -> vec3<f32> {
     let ok = vec3(is_finite(color.x), is_finite(color.y), is_finite(color.z)) & (color > vec3(0.0));
-    return select(vec3(0.0), color, ok);
+    return select(vec3(0.0), min(color, vec3(BRIGHTEST)), ok);
 }

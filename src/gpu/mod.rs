@@ -2,6 +2,7 @@
 
 pub(crate) mod compose;
 pub(crate) mod counts;
+pub(crate) mod filled;
 pub(crate) mod frame;
 pub(crate) mod kernel;
 pub(crate) mod pipelines;

@@ -23,7 +23,7 @@ pub struct Surfaces<'a> {
     pub index: u32,
     /// Distance from the eye along the view axis, in the world's unit (not the hardware's depth, not the ray's length): first
     /// channel of `r32float`, `r16float`, `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. 0, negative, infinite and NaN
-    /// mean that nothing was hit.
+    /// mean that nothing was hit, as does what is outside 10⁻¹⁸ … 10¹⁸: some renderers have a sky at f32's largest number.
     pub depth: &'a TextureView,
     /// World-space normal on the seen side: of any length in `rgba16float`, `rgba32float` or `rgba8snorm`; mapped to 0…1 in
     /// `rgba8unorm` or `rgb10a2unorm`; on the unfolded octahedron as −1…1 in `rg16float`, `rg32float`, `rg8snorm` or `rg16snorm`, as
@@ -49,7 +49,7 @@ pub struct Surfaces<'a> {
 /// The light of a host's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Shading<'a> {
-    /// Noisy linear radiance, Rec. 709, ≥ 0: `rgba16float`, `rgba32float`, `rg11b10ufloat` or `rgb9e5ufloat`. Where nothing was
+    /// Noisy linear radiance, Rec. 709, ≥ 0 (what is above 10¹⁵ counts as that): `rgba16float`, `rgba32float`, `rg11b10ufloat` or `rgb9e5ufloat`. Where nothing was
     /// hit it is shown as it is. It may be the target too.
     pub radiance: &'a TextureView,
     /// Linear reflectance at the visible surface, 0…1: `rgba8unorm` and `bgra8unorm` (`-srgb` too), `rgb10a2unorm`, and the formats

@@ -1,8 +1,8 @@
 //! Buffers that hold what does not change, and what fits a device.
 
 use super::{SceneError, bvh, folded};
+use crate::gpu::filled::filled;
 use bytemuck::Pod;
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{Buffer, BufferUsages, Device};
 
 /// What is folded into a texture may fill as many rows as a texture has, and references number 2²⁷ triangles.
@@ -32,7 +32,7 @@ pub(super) fn check_size(device: &Device, element: &str, bytes: usize) -> Result
 }
 
 pub(super) fn buffer(device: &Device, label: &str, contents: &[u8], usage: BufferUsages) -> Buffer {
-    device.create_buffer_init(&BufferInitDescriptor { label: Some(&format!("asvgf {label}")), contents, usage })
+    filled(device, &format!("asvgf {label}"), contents, usage)
 }
 
 /// A storage buffer, of at least the bytes that its binding needs.

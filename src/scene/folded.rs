@@ -1,7 +1,8 @@
 //! Rows of texels that are too long for one row of a texture, folded.
 
+use crate::gpu::filled::filled;
 use bytemuck::Pod;
-use wgpu::util::{BufferInitDescriptor, DeviceExt, TextureDataOrder};
+use wgpu::util::{DeviceExt, TextureDataOrder};
 use wgpu::{
     BufferUsages, CommandEncoder, Device, Extent3d, Origin3d, Queue, TexelCopyBufferInfo, TexelCopyBufferLayout,
     TexelCopyTextureInfo, Texture, TextureAspect, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
@@ -47,11 +48,7 @@ pub(super) fn replace(
     let height = texels.len().div_ceil(WIDTH);
     let mut data = texels.to_vec();
     data.resize(WIDTH * height, Texel::default());
-    let staging = device.create_buffer_init(&BufferInitDescriptor {
-        label: Some("asvgf staging"),
-        contents: bytemuck::cast_slice(&data),
-        usage: BufferUsages::COPY_SRC,
-    });
+    let staging = filled(device, "asvgf staging", bytemuck::cast_slice(&data), BufferUsages::COPY_SRC);
     encoder.copy_buffer_to_texture(
         TexelCopyBufferInfo {
             buffer: &staging,

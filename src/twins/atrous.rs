@@ -9,9 +9,9 @@ use crate::passes::atrous;
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings, Stops};
 
-/// What the documented formulas make of a pixel: colour, standard deviation, and the plain mean; its own, if it has converged. `image` has colour and deviation
-/// in its texels' first half, normal and depth in the second.
-fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i32, y: i32) -> (V, f64, V) {
+/// What the documented formulas make of a pixel: colour, standard deviation, and the plain mean; its own, if it has converged.
+/// `image` has colour and deviation in its texels' first half, normal and depth in the second.
+pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i32, y: i32) -> (V, f64, V) {
     let f = &bench.settings.filter;
     let stride = 1 << iteration;
     let guide = |i: usize| [image[i][2], image[i][3]];

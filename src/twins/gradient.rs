@@ -164,7 +164,7 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
 /// Also, how far outside that it would be (1 at half or twice), and the larger luminance.
 fn ratio(now: [f64; 4], before: [f64; 4], product: f64) -> ([f64; 4], f64, f64) {
     let [l, l_before] = [now, before].map(|p| luminance([p[0], p[1], p[2]]));
-    if l.max(l_before) <= 7.9e-31 || l_before <= 0.0 {
+    if l.max(l_before) <= 7.9e-31 || l_before <= 1e-6 * l {
         return ([1.0; 4], 0.0, l.max(l_before));
     }
     let e = 0.05 * l_before;

@@ -26,6 +26,7 @@ mod ingest_pairs;
 mod ingest_radiance;
 mod ingest_surface;
 mod packing;
+mod properties;
 mod reshade;
 mod resolve;
 mod strata;

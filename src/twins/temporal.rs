@@ -14,16 +14,16 @@ use crate::plan::{Feature, Features, Image};
 use crate::{FilterSettings, Settings};
 
 /// Everything that the pass reads.
-struct Given {
-    bench: Bench,
+pub(super) struct Given {
+    pub(super) bench: Bench,
     features: Features,
-    guide: Vec<[u32; 2]>,
-    guide_before: Vec<[u32; 2]>,
-    motion: Vec<V>,
-    object: Vec<u32>,
-    object_before: Vec<u32>,
-    radiance: Vec<Texel>,
-    history: Vec<Texel>,
+    pub(super) guide: Vec<[u32; 2]>,
+    pub(super) guide_before: Vec<[u32; 2]>,
+    pub(super) motion: Vec<V>,
+    pub(super) object: Vec<u32>,
+    pub(super) object_before: Vec<u32>,
+    pub(super) radiance: Vec<Texel>,
+    pub(super) history: Vec<Texel>,
     feedback: Vec<Texel>,
     samples: Vec<Texel>,
     gradient: Vec<Texel>,
@@ -33,12 +33,12 @@ struct Given {
 
 /// What the formulas make of a pixel.
 #[derive(Debug, Default)]
-struct Blended {
-    color: V,
-    mean: f64,
-    variance: f64,
-    length: f64,
-    lambda: f64,
+pub(super) struct Blended {
+    pub(super) color: V,
+    pub(super) mean: f64,
+    pub(super) variance: f64,
+    pub(super) length: f64,
+    pub(super) lambda: f64,
     /// A threshold was so near that rounding may decide otherwise.
     unsure: bool,
     /// The largest numbers that went in: errors are relative to these.
@@ -68,7 +68,7 @@ fn pack_guide(g: &[u32; 2]) -> Texel {
 }
 
 impl Given {
-    fn new(size: [u32; 2], features: &[Feature], settings: Settings, moving: bool) -> Self {
+    pub(super) fn new(size: [u32; 2], features: &[Feature], settings: Settings, moving: bool) -> Self {
         let mut bench = Bench { lambda_block: if moving { 3 } else { 1 }, ..Bench::new(size, settings) };
         if moving {
             bench.previous.eye[0] += 0.05;
@@ -299,7 +299,7 @@ impl Given {
         found
     }
 
-    fn twin(&self, x: i32, y: i32) -> Blended {
+    pub(super) fn twin(&self, x: i32, y: i32) -> Blended {
         let i = self.bench.at(x, y).unwrap();
         let f = &self.bench.settings.filter;
         let sample = unpack_rgb([self.radiance[i][0], self.radiance[i][1]]);

@@ -1,6 +1,7 @@
 //! What the GPU tests share.
 
 pub mod gpu;
+pub mod images;
 pub mod plane;
 pub mod scenes;
 pub mod stage;

@@ -1,6 +1,7 @@
 //! A scene, a denoiser and a target, and the frames that go through them.
 
 use super::gpu::{Gpu, gpu};
+use super::images::colors;
 use super::statistics::Rgb;
 use asvgf::scene::{GpuScene, Pose, Scene, builtin};
 use asvgf::{Camera, Denoiser, DenoiserDescriptor, Error, Frame, Settings, Specialize, View, ViewOptions};
@@ -112,7 +113,7 @@ impl Stage {
 
     /// What the target holds.
     pub fn image(&self) -> Vec<Rgb> {
-        colors(&self.gpu.read(self.target.texture()))
+        colors(self.gpu, &self.target)
     }
 
     /// An intermediate image of the last frame, as numbers.
@@ -120,16 +121,11 @@ impl Stage {
         let target = self.gpu.target(self.denoiser.size(), TextureFormat::Rgba32Float);
         let gpu = self.gpu;
         gpu.submit(|encoder| self.denoiser.show(&gpu.device, encoder, view, ViewOptions::default(), &target)).unwrap();
-        colors(&gpu.read(target.texture()))
+        colors(gpu, &target)
     }
 
     /// The largest red channel of an intermediate image.
     pub fn largest(&mut self, view: View) -> f32 {
         self.view(view).iter().map(|c| c[0]).fold(f32::NEG_INFINITY, f32::max)
     }
-}
-
-fn colors(bytes: &[u8]) -> Vec<Rgb> {
-    let channel = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);
-    bytes.chunks_exact(16).map(|t| [channel(&t[0..4]), channel(&t[4..8]), channel(&t[8..12])]).collect()
 }

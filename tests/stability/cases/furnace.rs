@@ -1,0 +1,45 @@
+//! A white furnace: white surfaces under a white sky reflect 1 in every pixel, whatever their shape, as does the sky itself. With
+//! rays that are scattered by the cosine there is no noise, so that a single ray that meets the surface it left is seen as dark.
+
+use crate::common::scenes::{lambert, scene};
+use crate::common::stage::Stage;
+use asvgf::scene::{Environment, GpuScene, Mesh, Scene};
+use asvgf::{Camera, Sampling, Settings, TracerSettings};
+
+/// A thousandth: albedo has 10 bits, radiance 18, the spatial filter's taps 10. All hold 1 exactly; weights that sum to 1 do not quite.
+pub const ROUNDING: f64 = 1e-3;
+
+/// White meshes under a white sky.
+pub fn white(meshes: Vec<Mesh>) -> Scene {
+    Scene { environment: Some(Environment::uniform([1.0; 3])), ..scene(vec![lambert([1.0; 3])], meshes) }
+}
+
+/// One denoiser for many scenes.
+pub struct Furnace(Stage);
+
+impl Furnace {
+    pub fn new(size: [u32; 2]) -> Self {
+        // One reflection, by scattered rays alone.
+        let tracer = TracerSettings { bounces: 0, sampling: Sampling::Scattered, ..Default::default() };
+        Self(Stage::new(white(Vec::new()), size, Settings { tracer, ..Settings::adaptive() }))
+    }
+
+    pub fn resize(&mut self, size: [u32; 2]) {
+        self.0.resize(size);
+    }
+
+    /// The farthest from 1 that any pixel is over frames; `camera` tells where each is seen from.
+    pub fn darkest(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
+        let Self(stage) = self;
+        stage.uploaded = GpuScene::new(&stage.gpu.device, &stage.gpu.queue, &scene).unwrap();
+        stage.scene = scene;
+        let mut worst = 0.0_f64;
+        for frame in 0..frames {
+            stage.camera = Some(camera(frame));
+            let image = stage.frame().image();
+            let away = image.iter().flatten().map(|x| f64::from((x - 1.0).abs()));
+            worst = away.fold(worst, |w, d| if d.is_nan() { f64::INFINITY } else { w.max(d) });
+        }
+        worst
+    }
+}

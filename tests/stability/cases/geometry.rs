@@ -1,0 +1,304 @@
+//! Shapes, sizes and places of surfaces, in a white furnace.
+
+use super::furnace::{Furnace, ROUNDING, white};
+use super::{Breaks, Case, Named, Worst};
+use crate::common::scenes::quad;
+use asvgf::Camera;
+use asvgf::scene::{Mesh, Scene};
+use std::f32::consts::PI;
+
+const SIZE: [u32; 2] = [32, 24];
+
+/// What every case of this group measures.
+const QUANTITY: &str = "largest difference of a pixel from 1";
+const ORIGIN: &str =
+    "a convex white surface under a white sky reflects 1, and no ray may meet the surface that it left";
+
+pub const CASES: &[Case] = &[
+    Case {
+        name: "scales",
+        varied: "a ball of 720 triangles and a plane of two, sizes 10⁻⁵ … 10⁷",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: scales,
+        breaks: Breaks::Found(scales_break),
+    },
+    Case {
+        name: "far from the origin",
+        varied: "a plane of 10 × 10 and the camera with it, 0 … 10⁶ away",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: far_away,
+        breaks: Breaks::Found(far_away_break),
+    },
+    Case {
+        name: "range of depths",
+        varied: "planes at 10⁻⁴, 10⁻², 1, 10², 10⁴, 10⁶, 10⁸, all in one image",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: depths,
+        breaks: Breaks::Known("a host's depths: 10⁻¹⁸ … 10¹⁸, else a miss"),
+    },
+    Case {
+        name: "grazing angles",
+        varied: "a plane seen at 10°, 1°, 0.1°, 0.01°, 0.001°",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: grazing,
+        breaks: Breaks::Never("the distance from a tangent plane has no depth gradient"),
+    },
+    Case {
+        name: "degenerate triangles",
+        varied: "a ball with zero-area triangles, needles of 1 : 10⁶, each triangle twice, or a copy within 10⁻⁷",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: degenerate,
+        breaks: Breaks::Known("needles whose area is no normal number (below 10⁻¹⁹ a side) are not seen"),
+    },
+    Case {
+        name: "few and many triangles",
+        varied: "0, 1, 2, 3, 4, 1000 triangles; 1000 at one point",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: counts,
+        breaks: Breaks::Known(
+            "trees over equal boxes take quadratic time to build (PLOC of obvhs): 10⁴ at one point see the long runs, 10⁶ do not end",
+        ),
+    },
+    Case {
+        name: "eyes and rays in awkward places",
+        varied: "the eye on a vertex, on an edge, in the plane of a surface; rays parallel to an axis",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: awkward,
+        breaks: Breaks::Never("a triangle seen edge-on has no area in the image"),
+    },
+    Case {
+        name: "smaller than a pixel, with jitter",
+        varied: "400 cards of 1, 0.3 and 0.1 pixels before the sky; each frame with another jitter",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: "all is white, whichever taps are taken",
+        measure: sub_pixel,
+        breaks: Breaks::Never("weights are normalised"),
+    },
+    Case {
+        name: "fields of view",
+        varied: "10⁻⁶, 10⁻³, 1, π − 10⁻³, π − 10⁻⁶ radians",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: fields_of_view,
+        breaks: Breaks::Known("0 and π are refused by name"),
+    },
+];
+
+/// A ball of 12 × 30 quads about a place.
+fn ball(radius: f32, centre: [f32; 3]) -> Mesh {
+    let (rings, sectors) = (12_u32, 30_u32);
+    let point = |ring: u32, sector: u32| {
+        let (polar, azimuth) = (PI * ring as f32 / rings as f32, 2.0 * PI * (sector % sectors) as f32 / sectors as f32);
+        let unit = [polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin()];
+        [0, 1, 2].map(|i| centre[i] + radius * unit[i])
+    };
+    let positions: Vec<[f32; 3]> = (0..=rings).flat_map(|r| (0..sectors).map(move |s| point(r, s))).collect();
+    let at = |ring: u32, sector: u32| ring * sectors + sector % sectors;
+    let triangles = (0..rings)
+        .flat_map(|r| (0..sectors).map(move |s| (r, s)))
+        .flat_map(|(r, s)| [[at(r, s), at(r, s + 1), at(r + 1, s)], [at(r + 1, s), at(r, s + 1), at(r + 1, s + 1)]])
+        .collect();
+    Mesh { positions, triangles, ..Default::default() }
+}
+
+/// A plane facing +Z about a place.
+fn plane(half: f32, [x, y, z]: [f32; 3]) -> Mesh {
+    quad([x - half, y - half, z], [2.0 * half, 0.0, 0.0], [0.0, 2.0 * half, 0.0], 0)
+}
+
+/// From a place towards −Z.
+fn looking(eye: [f32; 3]) -> Camera {
+    Camera { eye, target: [eye[0], eye[1], eye[2] - eye[2].abs().max(1.0)], ..Default::default() }
+}
+
+fn at_scale(furnace: &mut Furnace, scale: f32) -> f64 {
+    let eye = [0.3 * scale, 0.2 * scale, 3.0 * scale];
+    let camera = |_| Camera { eye, target: [0.0; 3], ..Default::default() };
+    let scenes = [white(vec![ball(scale, [0.0; 3])]), white(vec![plane(scale, [0.0; 3])])];
+    scenes.into_iter().map(|scene| furnace.darkest(scene, 3, camera)).fold(0.0, f64::max)
+}
+
+fn scales() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
+    let mut worst = Worst::default();
+    for power in [-5, -3, -1, 0, 2, 4, 7] {
+        let scale = 10.0_f32.powi(power);
+        worst.add(at_scale(&mut furnace, scale), || format!("10^{power}"));
+    }
+    worst
+}
+
+fn scales_break() -> String {
+    let mut furnace = Furnace::new(SIZE);
+    let mut find =
+        |step: i32| (1..=30).map(|n| n * step).find(|&power| at_scale(&mut furnace, 10.0_f32.powi(power)) > ROUNDING);
+    let tell = |power: Option<i32>| power.map_or("none".into(), |p| format!("10^{p}"));
+    let [small, large] = [-1, 1].map(|step| tell(find(step)));
+    format!("{small}, {large}")
+}
+
+fn away(furnace: &mut Furnace, distance: f32) -> f64 {
+    let place = [distance, 0.0, 0.0];
+    let eye = [distance, 0.0, 12.0];
+    furnace.darkest(white(vec![plane(5.0, place)]), 3, |_| looking(eye))
+}
+
+fn far_away() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
+    let mut worst = Worst::default();
+    for distance in [0.0, 1e2, 1e3, 1e4, 1e5, 1e6] {
+        worst.add(away(&mut furnace, distance), || format!("{distance:e} away"));
+    }
+    worst
+}
+
+fn far_away_break() -> String {
+    let mut furnace = Furnace::new(SIZE);
+    (6..=12)
+        .map(|power| 10.0_f32.powi(power))
+        .find(|&d| away(&mut furnace, d) > ROUNDING)
+        .map_or("none up to 10¹²".into(), |d| format!("{d:e} away"))
+}
+
+fn depths() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
+    let mut worst = Worst::default();
+    // Each a little to the side, so that all are seen.
+    let planes = [1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6, 1e8_f32].into_iter().enumerate().map(|(i, z)| {
+        let x = z * (0.16 * i as f32 - 0.5);
+        plane(0.07 * z, [x, 0.0, -z])
+    });
+    worst.add(furnace.darkest(white(planes.collect()), 4, |_| looking([0.0; 3])), || "all".into());
+    worst
+}
+
+fn grazing() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
+    let mut worst = Worst::default();
+    for degrees in [10.0, 1.0, 0.1, 0.01, 0.001_f32] {
+        let height = 10.0 * degrees.to_radians().tan();
+        let floor = quad([-50.0, 0.0, 50.0], [100.0, 0.0, 0.0], [0.0, 0.0, -100.0], 0);
+        // The middle of the image meets the floor at that angle.
+        let camera = |_| Camera {
+            eye: [0.0, height, 10.0],
+            target: [0.0; 3],
+            fov_y: (2.0 * degrees).to_radians(),
+            ..Default::default()
+        };
+        worst.add(furnace.darkest(white(vec![floor]), 3, camera), || format!("{degrees}°"));
+    }
+    worst
+}
+
+fn degenerate() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
+    let mut worst = Worst::default();
+    let kinds: [Named<fn(&mut Mesh)>; 4] = [
+        ("zero area", |m| {
+            m.triangles.extend((0..300).flat_map(|i| [[i, i, i], [i, i + 1, i + 1], [i, i, i + 30]]));
+        }),
+        ("needles", |m| {
+            let first = m.positions.len() as u32;
+            for i in 0..100 {
+                let x = -1.0 + 0.02 * i as f32;
+                m.positions.extend([[x, -2.0, -1.5], [x + 4e-6, -2.0, -1.5], [x, 2.0, -1.5]]);
+                m.triangles.push([0, 1, 2].map(|corner| first + 3 * i + corner));
+            }
+        }),
+        ("each twice", |m| m.triangles.extend_from_within(..)),
+        ("a copy within 1e-7", |m| {
+            let first = m.positions.len() as u32;
+            m.positions.extend(m.positions.clone().into_iter().map(|p| p.map(|x| x * (1.0 - 1e-7))));
+            m.triangles.extend(m.triangles.clone().into_iter().map(|t| t.map(|corner| first + corner)));
+        }),
+    ];
+    for (name, spoil) in kinds {
+        let mut mesh = ball(1.0, [0.0; 3]);
+        spoil(&mut mesh);
+        let camera = |_| Camera { eye: [0.4, 0.3, 3.0], target: [0.0; 3], ..Default::default() };
+        worst.add(furnace.darkest(white(vec![mesh]), 3, camera), || name.into());
+    }
+    worst
+}
+
+/// Triangles of a plane, side by side, or all in one place.
+fn triangles(count: u32, one_place: bool) -> Scene {
+    let corner = |i: u32| if one_place { 0.0 } else { -1.0 + 2.0 * i as f32 / count as f32 };
+    let positions = (0..count)
+        .flat_map(|i| [[corner(i), -1.0, 0.0], [corner(i) + 0.1, -1.0, 0.0], [corner(i), 1.0, 0.0]])
+        .collect();
+    let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    white(vec![Mesh { positions, triangles, ..Default::default() }])
+}
+
+fn counts() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
+    let mut worst = Worst::default();
+    let kinds = [0, 1, 2, 3, 4, 1000].map(|n| (n, false)).into_iter().chain([(1000, true)]);
+    for (count, one_place) in kinds {
+        let scene = triangles(count, one_place);
+        let value = furnace.darkest(scene, 2, |_| looking([0.0, 0.0, 3.0]));
+        worst.add(value, || format!("{count} triangles, in one place: {one_place}"));
+    }
+    worst
+}
+
+fn awkward() -> Worst {
+    // Odd, so that the middle pixel's ray is the axis itself.
+    let mut furnace = Furnace::new([33, 25]);
+    let mut worst = Worst::default();
+    let eyes = [
+        ("on a corner", [1.0, 1.0, 0.0], [0.0, 0.0, -1.0]),
+        ("on the diagonal", [0.0, 0.0, 0.0], [0.0, 0.0, -1.0]),
+        ("in the plane", [5.0, 0.0, 0.0], [0.0, 0.0, 0.0]),
+        ("along an axis at a corner", [1.0, 1.0, 3.0], [1.0, 1.0, 0.0]),
+        ("along an axis at the diagonal", [0.0, 0.0, 3.0], [0.0, 0.0, 0.0]),
+    ];
+    for (name, eye, target) in eyes {
+        let camera = |_| Camera { eye, target, ..Default::default() };
+        let value = furnace.darkest(white(vec![plane(1.0, [0.0; 3])]), 3, camera);
+        worst.add(value, || name.into());
+    }
+    worst
+}
+
+fn sub_pixel() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
+    let mut worst = Worst::default();
+    // At distance 5, a pixel is 5 · 2 · tan(0.4) / 24 ≈ 0.18 wide.
+    for pixels in [1.0, 0.3, 0.1_f32] {
+        // All in one plane, so that none shadows another.
+        let card = |i: u32| plane(0.09 * pixels, [-1.5 + 0.15 * (i % 20) as f32, -1.5 + 0.15 * (i / 20) as f32, 0.0]);
+        // Thirds and quarters: all twelve places in twelve frames.
+        let jitter = |frame: u32| [(frame % 3) as f32 / 3.0 - 0.33, (frame % 4) as f32 / 4.0 - 0.375];
+        let camera = |frame| Camera { jitter: jitter(frame), ..looking([0.0, 0.0, 5.0]) };
+        worst.add(furnace.darkest(white((0..400).map(card).collect()), 24, camera), || format!("{pixels} pixels"));
+    }
+    worst
+}
+
+fn fields_of_view() -> Worst {
+    let mut furnace = Furnace::new(SIZE);
+    let mut worst = Worst::default();
+    for fov_y in [1e-6, 1e-3, 1.0, PI - 1e-3, PI - 1e-6] {
+        let camera = |_| Camera { eye: [0.3, 0.2, 3.0], target: [0.0; 3], fov_y, ..Default::default() };
+        worst.add(furnace.darkest(white(vec![plane(1.0, [0.0; 3])]), 3, camera), || format!("{fov_y} rad"));
+    }
+    worst
+}
