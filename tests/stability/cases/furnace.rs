@@ -1,17 +1,17 @@
-//! A white furnace: white surfaces under a white sky reflect 1 in every pixel, whatever their shape, as does the sky itself. With
-//! rays that are scattered by the cosine there is no noise, so that a single ray that meets the surface it left is seen as dark.
+//! A furnace: convex surfaces of albedo ½ under a white sky reflect ½ in every pixel, whatever their shape, and the sky is 1. With rays
+//! that are scattered by the cosine there is no noise, so that a single ray that meets the surface it left is seen as dark.
 
 use crate::common::scenes::{lambert, scene};
 use crate::common::stage::Stage;
 use asvgf::scene::{Environment, GpuScene, Mesh, Scene};
-use asvgf::{Camera, Sampling, Settings, TracerSettings};
+use asvgf::{Camera, Sampling, Settings, TracerSettings, View};
 
-/// A thousandth: albedo has 10 bits, radiance 18, the spatial filter's taps 10. All hold 1 exactly; weights that sum to 1 do not quite.
+/// A thousandth: albedo has 10 bits, radiance 18, the spatial filter's taps 10. All hold 1 and ½; weights that sum to 1 do not quite.
 pub const ROUNDING: f64 = 1e-3;
 
-/// White meshes under a white sky.
-pub fn white(meshes: Vec<Mesh>) -> Scene {
-    Scene { environment: Some(Environment::uniform([1.0; 3])), ..scene(vec![lambert([1.0; 3])], meshes) }
+/// Grey meshes under a white sky.
+pub fn grey(meshes: Vec<Mesh>) -> Scene {
+    Scene { environment: Some(Environment::uniform([1.0; 3])), ..scene(vec![lambert([0.5; 3])], meshes) }
 }
 
 /// One denoiser for many scenes.
@@ -21,15 +21,22 @@ impl Furnace {
     pub fn new(size: [u32; 2]) -> Self {
         // One reflection, by scattered rays alone.
         let tracer = TracerSettings { bounces: 0, sampling: Sampling::Scattered, ..Default::default() };
-        Self(Stage::new(white(Vec::new()), size, Settings { tracer, ..Settings::adaptive() }))
+        Self(Stage::new(grey(Vec::new()), size, Settings { tracer, ..Settings::adaptive() }))
     }
 
     pub fn resize(&mut self, size: [u32; 2]) {
         self.0.resize(size);
     }
 
-    /// The farthest from 1 that any pixel is over frames; `camera` tells where each is seen from.
-    pub fn darkest(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
+    /// As [`Furnace::farthest`], infinite if no pixel sees a surface.
+    pub fn farthest_seen(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
+        let farthest = self.farthest(scene, frames, camera);
+        let sees = self.0.view(View::Depth).iter().any(|d| d[0] > 0.0);
+        if sees { farthest } else { f64::INFINITY }
+    }
+
+    /// The farthest from 1 and ½ that any pixel is over frames; `camera` tells where each is seen from.
+    pub fn farthest(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
         let Self(stage) = self;
         stage.uploaded = GpuScene::new(&stage.gpu.device, &stage.gpu.queue, &scene).unwrap();
         stage.scene = scene;
@@ -37,7 +44,7 @@ impl Furnace {
         for frame in 0..frames {
             stage.camera = Some(camera(frame));
             let image = stage.frame().image();
-            let away = image.iter().flatten().map(|x| f64::from((x - 1.0).abs()));
+            let away = image.iter().flatten().map(|x| f64::from((x - 1.0).abs().min((x - 0.5).abs())));
             worst = away.fold(worst, |w, d| if d.is_nan() { f64::INFINITY } else { w.max(d) });
         }
         worst

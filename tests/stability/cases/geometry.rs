@@ -1,6 +1,6 @@
-//! Shapes, sizes and places of surfaces, in a white furnace.
+//! Shapes, sizes and places of surfaces, in a furnace.
 
-use super::furnace::{Furnace, ROUNDING, white};
+use super::furnace::{Furnace, ROUNDING, grey};
 use super::{Breaks, Case, Named, Worst};
 use crate::common::scenes::quad;
 use asvgf::Camera;
@@ -10,9 +10,9 @@ use std::f32::consts::PI;
 const SIZE: [u32; 2] = [32, 24];
 
 /// What every case of this group measures.
-const QUANTITY: &str = "largest difference of a pixel from 1";
+const QUANTITY: &str = "largest difference of a pixel from ½ (surface) or 1 (sky); infinite if no surface is seen";
 const ORIGIN: &str =
-    "a convex white surface under a white sky reflects 1, and no ray may meet the surface that it left";
+    "a convex surface of albedo ½ under a white sky reflects ½, and no ray may meet the surface that it left";
 
 pub const CASES: &[Case] = &[
     Case {
@@ -52,6 +52,15 @@ pub const CASES: &[Case] = &[
         breaks: Breaks::Never("the distance from a tangent plane has no depth gradient"),
     },
     Case {
+        name: "huge triangles from nearby",
+        varied: "a plane of two triangles, 10 … 1000 times as large as its distance",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: huge,
+        breaks: Breaks::Found(huge_break),
+    },
+    Case {
         name: "degenerate triangles",
         varied: "a ball with zero-area triangles, needles of 1 : 10⁶, each triangle twice, or a copy within 10⁻⁷",
         quantity: QUANTITY,
@@ -85,18 +94,20 @@ pub const CASES: &[Case] = &[
         varied: "400 cards of 1, 0.3 and 0.1 pixels before the sky; each frame with another jitter",
         quantity: QUANTITY,
         bound: ROUNDING,
-        origin: "all is white, whichever taps are taken",
+        origin: "all that is lit is lit alike, whichever taps are taken",
         measure: sub_pixel,
         breaks: Breaks::Never("weights are normalised"),
     },
     Case {
         name: "fields of view",
-        varied: "10⁻⁶, 10⁻³, 1, π − 10⁻³, π − 10⁻⁶ radians",
+        varied: "10⁻⁶, 10⁻³, 1, 3, π − 10⁻³ radians",
         quantity: QUANTITY,
         bound: ROUNDING,
         origin: ORIGIN,
         measure: fields_of_view,
-        breaks: Breaks::Known("0 and π are refused by name"),
+        breaks: Breaks::Known(
+            "at π − 10⁻⁶ surfaces are met 10⁷ times as far as the eye is from them, and shadow themselves; 0 and π are refused by name",
+        ),
     },
 ];
 
@@ -130,8 +141,8 @@ fn looking(eye: [f32; 3]) -> Camera {
 fn at_scale(furnace: &mut Furnace, scale: f32) -> f64 {
     let eye = [0.3 * scale, 0.2 * scale, 3.0 * scale];
     let camera = |_| Camera { eye, target: [0.0; 3], ..Default::default() };
-    let scenes = [white(vec![ball(scale, [0.0; 3])]), white(vec![plane(scale, [0.0; 3])])];
-    scenes.into_iter().map(|scene| furnace.darkest(scene, 3, camera)).fold(0.0, f64::max)
+    let scenes = [grey(vec![ball(scale, [0.0; 3])]), grey(vec![plane(scale, [0.0; 3])])];
+    scenes.into_iter().map(|scene| furnace.farthest_seen(scene, 3, camera)).fold(0.0, f64::max)
 }
 
 fn scales() -> Worst {
@@ -156,7 +167,7 @@ fn scales_break() -> String {
 fn away(furnace: &mut Furnace, distance: f32) -> f64 {
     let place = [distance, 0.0, 0.0];
     let eye = [distance, 0.0, 12.0];
-    furnace.darkest(white(vec![plane(5.0, place)]), 3, |_| looking(eye))
+    furnace.farthest_seen(grey(vec![plane(5.0, place)]), 3, |_| looking(eye))
 }
 
 fn far_away() -> Worst {
@@ -184,7 +195,7 @@ fn depths() -> Worst {
         let x = z * (0.16 * i as f32 - 0.5);
         plane(0.07 * z, [x, 0.0, -z])
     });
-    worst.add(furnace.darkest(white(planes.collect()), 4, |_| looking([0.0; 3])), || "all".into());
+    worst.add(furnace.farthest_seen(grey(planes.collect()), 4, |_| looking([0.0; 3])), || "all".into());
     worst
 }
 
@@ -201,9 +212,35 @@ fn grazing() -> Worst {
             fov_y: (2.0 * degrees).to_radians(),
             ..Default::default()
         };
-        worst.add(furnace.darkest(white(vec![floor]), 3, camera), || format!("{degrees}°"));
+        worst.add(furnace.farthest_seen(grey(vec![floor]), 3, camera), || format!("{degrees}°"));
     }
     worst
+}
+
+/// A plane this large, seen from 3 away.
+fn large(furnace: &mut Furnace, half: f32) -> f64 {
+    let camera = |_| Camera { eye: [0.3, 0.2, 3.0], target: [0.0; 3], ..Default::default() };
+    furnace.farthest_seen(grey(vec![plane(half, [0.0; 3])]), 3, camera)
+}
+
+fn huge() -> Worst {
+    let mut worst = Worst::default();
+    let mut furnace = Furnace::new(SIZE);
+    for half in [30.0, 300.0, 3000.0] {
+        worst.add(large(&mut furnace, half), || format!("{half}"));
+    }
+    worst
+}
+
+fn huge_break() -> String {
+    let mut furnace = Furnace::new(SIZE);
+    let first = (4..=12).map(|power| 3.0 * 10.0_f32.powi(power)).find(|&half| large(&mut furnace, half) > ROUNDING);
+    first.map_or("none up to 10¹²".into(), |half| {
+        format!(
+            "{:.0e} times: the offset of a ray's origin goes with its place, not with the size of its triangle",
+            half / 3.0
+        )
+    })
 }
 
 fn degenerate() -> Worst {
@@ -232,19 +269,20 @@ fn degenerate() -> Worst {
         let mut mesh = ball(1.0, [0.0; 3]);
         spoil(&mut mesh);
         let camera = |_| Camera { eye: [0.4, 0.3, 3.0], target: [0.0; 3], ..Default::default() };
-        worst.add(furnace.darkest(white(vec![mesh]), 3, camera), || name.into());
+        worst.add(furnace.farthest_seen(grey(vec![mesh]), 3, camera), || name.into());
     }
     worst
 }
 
 /// Triangles of a plane, side by side, or all in one place.
 fn triangles(count: u32, one_place: bool) -> Scene {
+    let width = if one_place { 0.1 } else { 2.0 / count.max(1) as f32 };
     let corner = |i: u32| if one_place { 0.0 } else { -1.0 + 2.0 * i as f32 / count as f32 };
     let positions = (0..count)
-        .flat_map(|i| [[corner(i), -1.0, 0.0], [corner(i) + 0.1, -1.0, 0.0], [corner(i), 1.0, 0.0]])
+        .flat_map(|i| [[corner(i), -1.0, 0.0], [corner(i) + width, -1.0, 0.0], [corner(i), 1.0, 0.0]])
         .collect();
     let triangles = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    white(vec![Mesh { positions, triangles, ..Default::default() }])
+    grey(vec![Mesh { positions, triangles, ..Default::default() }])
 }
 
 fn counts() -> Worst {
@@ -253,7 +291,13 @@ fn counts() -> Worst {
     let kinds = [0, 1, 2, 3, 4, 1000].map(|n| (n, false)).into_iter().chain([(1000, true)]);
     for (count, one_place) in kinds {
         let scene = triangles(count, one_place);
-        let value = furnace.darkest(scene, 2, |_| looking([0.0, 0.0, 3.0]));
+        let camera = |_| looking([0.0, 0.0, 3.0]);
+        // What is all in one place covers no pixel's centre.
+        let value = if count == 0 || one_place {
+            furnace.farthest(scene, 2, camera)
+        } else {
+            furnace.farthest_seen(scene, 2, camera)
+        };
         worst.add(value, || format!("{count} triangles, in one place: {one_place}"));
     }
     worst
@@ -272,8 +316,8 @@ fn awkward() -> Worst {
     ];
     for (name, eye, target) in eyes {
         let camera = |_| Camera { eye, target, ..Default::default() };
-        let value = furnace.darkest(white(vec![plane(1.0, [0.0; 3])]), 3, camera);
-        worst.add(value, || name.into());
+        // From within its plane, a surface is not seen.
+        worst.add(furnace.farthest(grey(vec![plane(1.0, [0.0; 3])]), 3, camera), || name.into());
     }
     worst
 }
@@ -288,7 +332,7 @@ fn sub_pixel() -> Worst {
         // Thirds and quarters: all twelve places in twelve frames.
         let jitter = |frame: u32| [(frame % 3) as f32 / 3.0 - 0.33, (frame % 4) as f32 / 4.0 - 0.375];
         let camera = |frame| Camera { jitter: jitter(frame), ..looking([0.0, 0.0, 5.0]) };
-        worst.add(furnace.darkest(white((0..400).map(card).collect()), 24, camera), || format!("{pixels} pixels"));
+        worst.add(furnace.farthest_seen(grey((0..400).map(card).collect()), 24, camera), || format!("{pixels} pixels"));
     }
     worst
 }
@@ -296,9 +340,11 @@ fn sub_pixel() -> Worst {
 fn fields_of_view() -> Worst {
     let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
-    for fov_y in [1e-6, 1e-3, 1.0, PI - 1e-3, PI - 1e-6] {
+    for fov_y in [1e-6, 1e-3, 1.0, 3.0, PI - 1e-3] {
         let camera = |_| Camera { eye: [0.3, 0.2, 3.0], target: [0.0; 3], fov_y, ..Default::default() };
-        worst.add(furnace.darkest(white(vec![plane(1.0, [0.0; 3])]), 3, camera), || format!("{fov_y} rad"));
+        // As wide as what is seen.
+        let half = (10.0 * (0.5 * fov_y).tan()).max(1.0);
+        worst.add(furnace.farthest_seen(grey(vec![plane(half, [0.0; 3])]), 3, camera), || format!("{fov_y} rad"));
     }
     worst
 }

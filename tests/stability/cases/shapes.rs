@@ -1,6 +1,6 @@
 //! Sizes of the image. Any following any other is in tests/gpu/behaviour/lifecycle.rs.
 
-use super::furnace::{Furnace, ROUNDING, white};
+use super::furnace::{self, Furnace, ROUNDING};
 use super::painted::{Painted, adaptive, grey};
 use super::{Breaks, Case, Worst};
 use crate::common::scenes::quad;
@@ -10,9 +10,9 @@ pub const CASES: &[Case] = &[
     Case {
         name: "traced images",
         varied: "1×1, 1×N, N×1, 2×2, 3×3, primes, neighbours of multiples of 3 and 8, 8192×1, 1×8192",
-        quantity: "largest difference of a pixel from 1",
+        quantity: "largest difference of a pixel from ½ (surface) or 1 (sky)",
         bound: ROUNDING,
-        origin: "a white surface under a white sky, at any size",
+        origin: "a surface of albedo ½ under a white sky, at any size",
         measure: traced,
         breaks: Breaks::Known("sizes above the device's `max_texture_dimension_2d` are refused by name"),
     },
@@ -57,7 +57,7 @@ fn traced() -> Worst {
         let plane = quad([-1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0);
         let camera = |_| Camera { eye: [0.2, 0.1, 2.0], target: [0.0; 3], ..Default::default() };
         furnace.resize(size);
-        worst.add(furnace.darkest(white(vec![plane]), 3, camera), || format!("{size:?}"));
+        worst.add(furnace.farthest_seen(furnace::grey(vec![plane]), 3, camera), || format!("{size:?}"));
     }
     worst
 }
