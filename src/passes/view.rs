@@ -37,6 +37,9 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
     if view == View::Object && !plan.features.has(Feature::Objects) {
         return missing("objects are not told apart");
     }
+    if view == View::Mean && !has(Image::Sum) {
+        return missing("frames are only summed in Mode::Reference");
+    }
     let paired = matches!(view, View::PairNow | View::PairBefore);
     let traced = plan.features.has(Feature::Reshade) || plan.features.has(Feature::Pairs);
     if paired && !traced {
@@ -84,6 +87,7 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
             ("motion", Slot::Now(Image::Motion), &[]),
             ("gradient", gradient, &[]),
             ("history", Slot::Now(Image::History), &[]),
+            ("sum", Slot::Now(Image::Sum), &[]),
             ("target_out", Slot::Target, &[]),
         ],
     );
@@ -102,6 +106,7 @@ pub(crate) fn step(view: View, plan: &Plan, mode: Mode, target: TextureFormat) -
         View::Emission => &["emission"],
         View::Object => &["object"],
         View::PairNow | View::PairBefore => &["samples", "radiance", "albedo"],
+        View::Mean => &["sum"],
     };
     let bindings = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name)).collect();
     Ok(Step { pass: Pass::View, features, grid: Grid::Pixels, iteration: view as u32, bindings })

@@ -18,6 +18,8 @@ mod crops;
 mod export;
 #[path = "../../examples/support/film.rs"]
 mod film;
+#[path = "../../examples/support/framing.rs"]
+mod framing;
 #[path = "../../examples/support/gpu.rs"]
 mod gpu;
 #[path = "../../examples/report/hash.rs"]
@@ -36,6 +38,8 @@ mod plots;
 mod record;
 #[path = "../../examples/report/score.rs"]
 mod score;
+#[path = "../../examples/support/sky.rs"]
+mod sky;
 #[path = "../../examples/support/stage.rs"]
 mod stage;
 #[path = "../../examples/report/suite.rs"]

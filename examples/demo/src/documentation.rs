@@ -1,0 +1,67 @@
+//! The library's own documentation as hover text, so that it is written once.
+
+const SETTINGS: &str = include_str!("../../../src/settings.rs");
+const VIEWS: &str = include_str!("../../../src/view.rs");
+const FEATURES: &str = include_str!("../../../src/plan/feature.rs");
+
+/// What a field of the settings is, and what a higher and a lower value cost.
+pub fn of_setting(field: &str) -> Option<String> {
+    above(SETTINGS, &format!("    pub {field}:"))
+}
+
+/// What an image shows, by the name of its variant.
+pub fn of_view(variant: &str) -> Option<String> {
+    above(VIEWS, &format!("    {variant} ="))
+}
+
+/// Everything that may be compiled into a shader: name and meaning.
+pub fn features() -> Vec<(&'static str, String)> {
+    let within = FEATURES.lines().skip_while(|line| *line != "features! {").take_while(|line| *line != "}");
+    let names = within.filter_map(|line| line.trim().strip_suffix(','));
+    names.filter_map(|name| Some((name, above(FEATURES, &format!("    {name},"))?))).collect()
+}
+
+/// The doc comment above the first line that starts so, as plain text.
+fn above(source: &str, start: &str) -> Option<String> {
+    let lines: Vec<&str> = source.lines().collect();
+    let at = lines.iter().position(|line| line.starts_with(start))?;
+    let text: Vec<&str> = lines[..at].iter().rev().map_while(|line| line.trim().strip_prefix("///")).collect();
+    let text: String = text.into_iter().rev().collect();
+    (!text.is_empty()).then(|| plain(text.trim()))
+}
+
+/// Without the marks of rustdoc: links keep their text, code its words.
+fn plain(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text.replace(['`', '\\'], "");
+    // [name](path) is name, [name] too; [0, 1] does not occur.
+    while let Some((before, after)) = rest.split_once('[') {
+        out.push_str(before);
+        let Some((name, after)) = after.split_once(']') else { break };
+        out.push_str(name);
+        let target = after.strip_prefix('(').and_then(|link| link.split_once(')'));
+        rest = target.map_or(after, |(_, after)| after).to_owned();
+    }
+    out + &rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use asvgf::View;
+
+    #[test]
+    fn links_keep_their_text() {
+        assert_eq!(plain("as [`Denoiser::show`](crate::Denoiser::show) says, `α`"), "as Denoiser::show says, α");
+        assert_eq!(plain("with [`Gradient::Off`] and A\\[x\\]"), "with Gradient::Off and Ax");
+    }
+
+    #[test]
+    fn every_view_and_feature_is_documented() {
+        for view in View::ALL {
+            assert!(of_view(&format!("{view:?}")).is_some_and(|text| text.len() > 10), "{view:?}");
+        }
+        let features = features();
+        assert!(features.len() > 40 && features.iter().any(|(name, _)| *name == "StorageReads"));
+    }
+}
