@@ -67,6 +67,7 @@ impl Demo {
                 self.messages.error(error.to_string());
             }
         });
+        self.messages.show(ui.ctx());
     }
 
     /// Takes what has come from the GPU, without waiting.
@@ -102,9 +103,6 @@ impl Demo {
         Panel::left("side").default_size(310.0).show(ui, |ui| {
             controls::side(ui, &mut self.state, &mut self.fields, &facts, actions);
         });
-        if !self.messages.is_empty() {
-            Panel::bottom("messages").show(ui, |ui| self.messages.show(ui));
-        }
         if self.state.plots {
             Panel::bottom("plots").exact_size(PLOTS).show(ui, |ui| self.picture.curves.show(ui));
         }

@@ -46,7 +46,7 @@ impl Orbit {
     pub fn look(&mut self, [x, y]: [f32; 2]) {
         let eye = self.eye();
         // At its own pace: one turns as far as what is seen moves with the pointer.
-        *self = Self { yaw: self.yaw + self.fov_y * x, pitch: self.pitch + self.fov_y * y, ..*self }.level();
+        *self = Self { yaw: self.yaw + self.fov_y * x, pitch: self.pitch - self.fov_y * y, ..*self }.level();
         self.target = eye - self.backward() * self.distance;
     }
 

@@ -4,6 +4,10 @@ const SETTINGS: &str = include_str!("../../../src/settings.rs");
 const VIEWS: &str = include_str!("../../../src/view.rs");
 const FEATURES: &str = include_str!("../../../src/plan/feature.rs");
 
+/// Signs that egui's fonts lack, and what is written instead.
+const ABSENT: [(&str, &str); 8] =
+    [("←", ":="), ("∇", "grad "), ("⁻³", "^-3"), ("ᵏ", "^k"), ("ⁿ", "^n"), ("₁", "1"), ("₂", "2"), ("₃", "3")];
+
 /// What a field of the settings is, and what a higher and a lower value cost.
 pub fn of_setting(field: &str) -> Option<String> {
     above(SETTINGS, &format!("    pub {field}:"))
@@ -34,6 +38,9 @@ fn above(source: &str, start: &str) -> Option<String> {
 fn plain(text: &str) -> String {
     let mut out = String::new();
     let mut rest = text.replace(['`', '\\'], "");
+    for (sign, letters) in ABSENT {
+        rest = rest.replace(sign, letters);
+    }
     // [name](path) is name, [name] too; [0, 1] does not occur.
     while let Some((before, after)) = rest.split_once('[') {
         out.push_str(before);
@@ -54,6 +61,23 @@ mod tests {
     fn links_keep_their_text() {
         assert_eq!(plain("as [`Denoiser::show`](crate::Denoiser::show) says, `α`"), "as Denoiser::show says, α");
         assert_eq!(plain("with [`Gradient::Off`] and A\\[x\\]"), "with Gradient::Off and Ax");
+    }
+
+    #[test]
+    fn egui_can_write_all_of_it() {
+        use eframe::egui::{Context, FontId};
+        let context = Context::default();
+        let texts = [SETTINGS, VIEWS, FEATURES].map(|source| {
+            let comments = source.lines().filter_map(|line| line.trim().strip_prefix("///"));
+            plain(&comments.collect::<String>())
+        });
+        let _ = context.run_ui(Default::default(), |ui| {
+            ui.fonts_mut(|fonts| {
+                let strange = |c: &char| !fonts.has_glyph(&FontId::default(), *c);
+                let strange: Vec<char> = texts.iter().flat_map(|text| text.chars()).filter(strange).collect();
+                assert!(strange.is_empty(), "{strange:?}");
+            });
+        });
     }
 
     #[test]

@@ -37,8 +37,8 @@ pub struct Embed {
     pub size: [u32; 2],
     /// Number of the next frame: with the pixel it decides all random numbers, so all films have the same noise.
     pub index: u32,
-    /// Paths of references so far: those of different frames, and of a frame that stands still, all differ.
-    converged: u32,
+    /// Frames of the references so far: those of different frames, and of a frame that stands still, all differ.
+    pub converged: u32,
     /// The GPU works on what was submitted last.
     working: Arc<AtomicBool>,
 }

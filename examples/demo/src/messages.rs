@@ -1,6 +1,6 @@
 //! What the user is told until it is dismissed.
 
-use eframe::egui::{Color32, Ui};
+use eframe::egui::{Align2, Color32, Context, Window};
 
 /// Most messages that are kept.
 const KEPT: usize = 6;
@@ -18,22 +18,26 @@ impl Messages {
         self.add(false, text.into());
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// One message a line.
     pub fn text(&self) -> String {
         self.0.iter().map(|(_, text)| text.as_str()).collect::<Vec<_>>().join("\n")
     }
 
-    /// All of them, and a button that dismisses them.
-    pub fn show(&mut self, ui: &mut Ui) {
-        for (bad, text) in &self.0 {
-            let color = if *bad { Color32::from_rgb(255, 130, 110) } else { ui.visuals().text_color() };
-            ui.colored_label(color, text);
+    /// All of them over the picture, which stays as large as it is, and a button that dismisses them.
+    pub fn show(&mut self, context: &Context) {
+        if self.0.is_empty() {
+            return;
         }
-        if ui.button("dismiss").clicked() {
+        let window =
+            Window::new("messages").title_bar(false).resizable(false).anchor(Align2::RIGHT_BOTTOM, [-8.0, -8.0]);
+        let dismissed = window.show(context, |ui| {
+            for (bad, text) in &self.0 {
+                let color = if *bad { Color32::from_rgb(255, 130, 110) } else { ui.visuals().text_color() };
+                ui.colored_label(color, text);
+            }
+            ui.button("dismiss").clicked()
+        });
+        if dismissed.and_then(|response| response.inner).unwrap_or(false) {
             self.0.clear();
         }
     }

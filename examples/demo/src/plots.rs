@@ -1,7 +1,7 @@
 //! Curves of the last frames: errors, means, and times of passes.
 
 use crate::means::{Mean, Quantity};
-use eframe::egui::Ui;
+use eframe::egui::{TextStyle, Ui};
 use egui_plot::{Bar, BarChart, Legend, Line, Plot, PlotPoints};
 use std::collections::VecDeque;
 
@@ -69,7 +69,9 @@ impl Curves {
     /// The plots side by side.
     pub fn show(&self, ui: &mut Ui) {
         let height = ui.available_height();
-        let plot = |name| Plot::new(name).height(height - 24.0).legend(Legend::default()).allow_scroll(false);
+        let legend = Legend::default().text_style(TextStyle::Small);
+        let plain = |name| Plot::new(name).height(height - 24.0).allow_scroll(false);
+        let plot = |name| plain(name).legend(legend.clone());
         // The measure is right on average, and may be below zero by chance where the error is small.
         let root = |x: f64| x.max(0.0).sqrt();
         ui.columns(4, |columns| {
@@ -79,11 +81,11 @@ impl Curves {
                 ui.line(Line::new("constant α", self.points(Quantity::ConstantError, root)));
             });
             columns[1].label("mean λ");
-            plot("lambda").include_y(0.0).show(&mut columns[1], |ui| {
+            plain("lambda").include_y(0.0).show(&mut columns[1], |ui| {
                 ui.line(Line::new("λ", self.points(Quantity::Lambda, |x| x)));
             });
             columns[2].label("mean history length, frames");
-            plot("length").include_y(0.0).show(&mut columns[2], |ui| {
+            plain("length").include_y(0.0).show(&mut columns[2], |ui| {
                 ui.line(Line::new("history", self.points(Quantity::HistoryLength, |x| x)));
             });
             columns[3].label("milliseconds by pass");

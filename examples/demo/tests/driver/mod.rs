@@ -27,7 +27,9 @@ pub struct Window {
 impl Window {
     /// Opens the window and waits for its first frame.
     pub fn open([width, height]: [f32; 2], state: State) -> Self {
-        let gpu = create_render_state(gpu::setup(), RendererOptions::PREDICTABLE);
+        // Textures as in a window: the predictable filter is not the sampler's.
+        let options = RendererOptions { predictable_texture_filtering: false, ..RendererOptions::PREDICTABLE };
+        let gpu = create_render_state(gpu::setup(), options);
         // Small, so that a software adapter keeps the test short.
         let demo = Demo::new(&gpu, State { scale: Some(0.125), ..state }).expect("the demo starts");
         let harness = Harness::builder()
@@ -35,7 +37,7 @@ impl Window {
             .renderer(WgpuTestRenderer::from_render_state(gpu.clone()))
             .build_ui_state(|ui, demo: &mut Demo| demo.show(ui), demo);
         let mut window = Self { harness, gpu, folder: Folder::new() };
-        window.frames(1);
+        window.settle();
         window
     }
 
@@ -63,16 +65,20 @@ impl Window {
 
     /// Repaints until so many more frames were rendered.
     pub fn frames(&mut self, count: u32) {
-        let last = self.demo().frames() + count;
-        for _ in 0..4 * count + 4 {
-            if self.demo().frames() >= last {
-                return;
-            }
+        self.until(self.demo().frames() + count);
+    }
+
+    /// Repaints until so many frames were rendered in all.
+    pub fn until(&mut self, last: u32) {
+        // Some repaints render nothing: those that come while the GPU works.
+        for _ in 0..4 * last + 4 {
             self.wait();
+            if self.demo().frames() >= last {
+                break;
+            }
             self.harness.step();
         }
-        self.wait();
-        assert!(self.demo().frames() >= last, "{} frames of {last}", self.demo().frames());
+        assert_eq!(self.demo().frames(), last);
     }
 
     fn wait(&self) {
@@ -163,15 +169,14 @@ impl Window {
         bytes.chunks_exact(16).map(|t| [number(&t[..4]), number(&t[4..8]), number(&t[8..12])]).collect()
     }
 
-    /// The picture as the window draws it.
-    pub fn shown(&mut self) -> Image {
+    /// What the window draws at places of the picture, 0…1.
+    pub fn shown(&mut self, places: &[[f32; 2]]) -> Vec<[u8; 4]> {
         self.wait();
         let window = self.harness.render().expect("a picture of the window");
-        let rect = self.room();
-        let (left, top) = (rect.left().round() as u32, rect.top().round() as u32);
-        let (width, height) = (window.width() - left, window.height() - top);
-        let texel = |i: u32| window.get_pixel(left + i % width, top + i / width).0;
-        Image { size: [width, height], texels: (0..width * height).map(texel).collect() }
+        let size = vec2(window.width() as f32, window.height() as f32);
+        assert!(Rect::from_min_size(Pos2::ZERO, size).contains_rect(self.room()), "{:?} in {size}", self.room());
+        let pixel = |at: Pos2| window.get_pixel(at.x as u32, at.y as u32).0;
+        places.iter().map(|&place| pixel(self.place(place))).collect()
     }
 
     /// Where the picture is: what the panels leave.
@@ -204,6 +209,11 @@ impl Image {
         let centre = [(x as f32 + 0.5) / side(0), (y as f32 + 0.5) / side(1)];
         (self.texels[y * self.size[0] as usize + x], centre)
     }
+}
+
+/// Whether two texels are the same but for the rounding of whoever drew one of them.
+pub fn alike(a: [u8; 4], b: [u8; 4]) -> bool {
+    a.iter().zip(b).all(|(&a, b)| a.abs_diff(b) <= 3)
 }
 
 /// Mean over all pixels and channels.
