@@ -4,8 +4,8 @@ use asvgf_demo::app::Demo;
 use asvgf_demo::options::{self, HELP, Options};
 use asvgf_demo::state::State;
 use asvgf_demo::{gpu, window_shot::WindowShot};
+use eframe::NativeOptions;
 use eframe::egui::ViewportBuilder;
-use eframe::{NativeOptions, egui_wgpu::WgpuError};
 use std::process::ExitCode;
 
 const NO_DISPLAY: &str = "there is no display to open a window on (neither DISPLAY nor WAYLAND_DISPLAY is set).\n\
@@ -72,7 +72,8 @@ fn run(options: Options) -> Result<(), String> {
         }),
     );
     match ended {
-        Err(eframe::Error::Wgpu(WgpuError::RequestAdapterError(error))) => Err(format!("{error}\n{NO_ADAPTER}")),
+        // Whatever of it failed: a machine without a driver has no surface either.
+        Err(eframe::Error::Wgpu(error)) => Err(format!("{error}\n{NO_ADAPTER}")),
         Err(error) => Err(error.to_string()),
         Ok(()) => failed.and_then(|failed| failed.lock().ok()?.take()).map_or(Ok(()), Err),
     }

@@ -3,7 +3,7 @@
 use crate::app::Demo;
 use asvgf::image_io;
 use eframe::egui::{ColorImage, Context, Ui, ViewportCommand};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
 /// Why the file could not be written.
@@ -49,7 +49,7 @@ impl eframe::App for Shooting {
     }
 }
 
-fn write(context: &Context, image: &ColorImage, path: &PathBuf, failure: &Failure) {
+fn write(context: &Context, image: &ColorImage, path: &Path, failure: &Failure) {
     let [width, height] = image.size.map(|side| side as u32);
     let pixels: Vec<[u8; 4]> = image.pixels.iter().map(|pixel| pixel.to_array()).collect();
     if let (Err(error), Ok(mut failure)) = (image_io::write_png(path, width, height, &pixels), failure.lock()) {
