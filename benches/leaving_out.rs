@@ -89,7 +89,7 @@ fn row(gpu: &Gpu, name: &str, case: &Case, frames: usize) -> String {
         let still = case.animation == "static";
         let mut pose = scene.pose(Some(0), if still { 0.0 } else { index as f32 / 30.0 });
         if case.animation == "move-light" && index % 2 == 1 {
-            pose.emission.iter_mut().for_each(|factor| *factor *= 0.9);
+            pose.emission.iter_mut().flatten().for_each(|factor| *factor *= 0.9);
         }
         let view = scene.camera_node().and_then(|n| scene.camera_view(&pose, n)).expect("a camera");
         let camera = Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] };

@@ -11,6 +11,8 @@ mod compare;
 mod export;
 #[path = "support/film.rs"]
 mod film;
+#[path = "support/framing.rs"]
+mod framing;
 #[path = "support/gpu.rs"]
 mod gpu;
 #[allow(dead_code, reason = "shared with `denoise`, which reads what is written here")]
@@ -18,6 +20,8 @@ mod gpu;
 mod layers;
 #[path = "support/options.rs"]
 mod options;
+#[path = "support/sky.rs"]
+mod sky;
 #[path = "support/stage.rs"]
 mod stage;
 #[path = "support/table.rs"]

@@ -5,7 +5,9 @@
 #import asvgf::packing::{unpack_rgb, filtered_color, unpack_motion, unpack_normal, unpack_length, unpack_lambda}
 #import asvgf::random::hash
 #if VIEW >= 17
+#if VIEW <= 18
 #import asvgf::strata::{is_sample_pixel, place_now, place_before, stratum_of}
+#endif
 #endif
 
 #if VIEW == 0
@@ -55,12 +57,18 @@
 @group(0) @binding(6) var object: texture_2d<u32>;
 #endif
 #if VIEW >= 17
+#if VIEW <= 18
 // The gradient's pairs: now, then before.
 @group(0) @binding(1) var samples: texture_2d<u32>;
 @group(0) @binding(2) var radiance: texture_2d<u32>;
 #ifdef ALBEDO
 @group(0) @binding(3) var albedo: texture_2d<f32>;
 #endif
+#endif
+#endif
+#if VIEW == 19
+// Sum over the samples so far, and their count.
+@group(0) @binding(1) var sum: texture_2d<f32>;
 #endif
 #if VIEW == 7
 #ifndef UNCHANGED
@@ -196,6 +204,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(f32(id & 0xffffu), f32(id >> 16u), 1.0);
 #endif
 #if VIEW >= 17
+#if VIEW <= 18
     let stratum = vec2<i32>(stratum_of(vec2<u32>(pixel)));
     let record = textureLoad(samples, stratum, 0);
     if !is_sample_pixel(record, vec2<u32>(pixel)) {
@@ -211,6 +220,11 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     r *= textureLoad(albedo, pixel, 0).xyz;
 #endif
     return r;
+#endif
+#endif
+#if VIEW == 19
+    let s = textureLoad(sum, pixel, 0);
+    return s.xyz / s.w;
 #endif
 }
 

@@ -340,11 +340,12 @@ impl Denoiser {
             continued &= last.is_some_and(|l| l.index.wrapping_add(1) == index);
         }
         let last = last.filter(|_| continued);
-        let changes =
-            self.changes(last.map(|l| Changes {
-                camera: l.camera != camera,
-                scene: !same_version || l.tracer != self.settings.tracer,
-            }));
+        let changes = self.changes(last.map(|l| Changes {
+            camera: l.camera != camera,
+            // lavapipe keeps so much code and no more: with a second `trace` for frames in which the camera alone moves, it would
+            // compile one of the two in each frame.
+            scene: !same_version || l.tracer != self.settings.tracer || self.on_cpu && l.camera != camera,
+        }));
         let plan = match changes {
             Changes::ANY => most.clone(),
             changes => self.adapt(Plan::path_traced(&traits, &self.settings, changes, format)),

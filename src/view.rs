@@ -49,11 +49,13 @@ pub enum View {
     PairNow = 17,
     /// What they reflected in the last frame, likewise.
     PairBefore = 18,
+    /// Mean of the frames so far, in [`Mode::Reference`](crate::Mode::Reference): linear radiance. Picture: tone-mapped.
+    Mean = 19,
 }
 
 impl View {
     /// Every view, in order.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Denoised,
         Self::Noisy,
         Self::Albedo,
@@ -73,6 +75,7 @@ impl View {
         Self::Object,
         Self::PairNow,
         Self::PairBefore,
+        Self::Mean,
     ];
 
     /// The name in lower case with hyphens: `history-length`.
@@ -97,6 +100,7 @@ impl View {
             Self::Object => "object",
             Self::PairNow => "pair-now",
             Self::PairBefore => "pair-before",
+            Self::Mean => "mean",
         }
     }
 

@@ -37,6 +37,8 @@ mod export;
 #[allow(dead_code, reason = "shared with the other examples")]
 #[path = "../support/film.rs"]
 mod film;
+#[path = "../support/framing.rs"]
+mod framing;
 #[path = "../support/gpu.rs"]
 mod gpu;
 #[allow(dead_code, reason = "shared with `denoise`, which reads sequences")]
@@ -45,6 +47,8 @@ mod layers;
 #[allow(dead_code, reason = "of `render`'s options only what says which scene is shown")]
 #[path = "../support/options.rs"]
 mod options;
+#[path = "../support/sky.rs"]
+mod sky;
 #[path = "../support/stage.rs"]
 mod stage;
 #[allow(dead_code, reason = "shared with the other examples")]

@@ -2,7 +2,7 @@
 
 use crate::arguments::{Format, Usage, Value};
 use asvgf::scene::builtin;
-use asvgf::{Gradient, Settings, View};
+use asvgf::{Gradient, Mode, Settings, View};
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -273,7 +273,11 @@ impl Filter {
 
 /// Whether a frame with these settings has something to show.
 fn exists(view: View, settings: &Settings) -> bool {
-    view != View::Gradient || settings.filter.gradient != Gradient::Off
+    match view {
+        View::Gradient => settings.filter.gradient != Gradient::Off,
+        View::Mean => settings.mode == Mode::Reference,
+        _ => true,
+    }
 }
 
 /// What is only said of a rendering.

@@ -1,7 +1,9 @@
 //! The scene that is rendered: loaded, lit, animated and seen by a camera.
 
 use crate::arguments::Usage;
+use crate::framing::{bounds, framing};
 use crate::options::{Options, Source, Viewpoint};
+use crate::sky::{is_dark, sky};
 use asvgf::Camera;
 use asvgf::scene::{self, Environment, Pose, Scene, Warning, builtin};
 use glam::Vec3;
@@ -124,59 +126,6 @@ fn known(scene: &Scene) -> String {
     }
     let names = scene.animations.iter().enumerate().map(|(i, a)| format!("{i} \"{}\"", a.name));
     format!("the file has {}; or say static", names.collect::<Vec<_>>().join(", "))
-}
-
-/// Whether nothing would be seen but black.
-fn is_dark(scene: &Scene) -> bool {
-    let placed = |mesh: usize| scene.nodes.iter().any(|node| node.meshes.contains(&mesh));
-    let emits = |material: usize| scene.materials.get(material).is_some_and(|m| m.emissive.iter().any(|&x| x > 0.0));
-    let emitter = scene.meshes.iter().enumerate().any(|(i, mesh)| emits(mesh.material) && placed(i));
-    let lamp = scene.nodes.iter().filter_map(|node| scene.lights.get(node.light?)).any(|l| l.intensity != [0.0; 3]);
-    scene.environment.is_none() && !emitter && !lamp
-}
-
-/// A cloudy sky: bright above, brightest on one side so that shapes show, and a darker ground.
-fn sky() -> Environment {
-    let (width, height) = (512_u32, 256_u32);
-    let brightest = Vec3::new(0.5, 0.7, 0.5).normalize();
-    let texel = |i: u32| {
-        let azimuth = ((i % width) as f32 + 0.5) / width as f32 * std::f32::consts::TAU - std::f32::consts::PI;
-        let polar = ((i / width) as f32 + 0.5) / height as f32 * std::f32::consts::PI;
-        let direction = Vec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin());
-        let (ground, horizon, zenith) = (Vec3::splat(0.2), Vec3::new(0.5, 0.53, 0.58), Vec3::new(0.7, 0.85, 1.1));
-        let above = 1.0 - (1.0 - direction.y.clamp(0.0, 1.0)).powi(2);
-        let below = (-direction.y * 4.0).clamp(0.0, 1.0);
-        let glow = direction.dot(brightest).max(0.0).powi(8);
-        (horizon.lerp(zenith, above).lerp(ground, below) + glow * Vec3::new(2.4, 2.2, 1.9)).to_array()
-    };
-    Environment { width, height, radiance: (0..width * height).map(texel).collect() }
-}
-
-/// The box around everything, at rest and at some moments of the animation.
-fn bounds(scene: &Scene) -> Option<[Vec3; 2]> {
-    let moments = 12;
-    let duration = scene.duration(Some(0));
-    let times = (0..moments).map(|i| duration * i as f32 / moments as f32);
-    let boxes = times.filter_map(|time| scene.bounds(&scene.pose(Some(0), time)));
-    boxes.map(|b| b.map(Vec3::from)).reduce(|[low, high], [l, h]| [low.min(l), high.max(h)])
-}
-
-/// A camera in front, to the right and slightly above, so far away that the box just fits.
-fn framing([low, high]: [Vec3; 2], aspect: f32, fov_y: f32) -> Camera {
-    let towards = Vec3::new(0.55, 0.35, 1.0).normalize();
-    let right = Vec3::Y.cross(towards).normalize();
-    let up = towards.cross(right);
-    let centre = 0.5 * (low + high);
-    let slope = (fov_y / 2.0).tan();
-    // A corner at (x, y, z) in the camera's directions is in the picture from a distance of z + |y| / slope on.
-    let distance = (0..8_u32).fold(0.0_f32, |distance, i| {
-        let corner = Vec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low) - centre;
-        let sideways = (corner.dot(right).abs() / aspect).max(corner.dot(up).abs());
-        distance.max(corner.dot(towards) + 1.05 * sideways / slope)
-    });
-    // A scene may be one point.
-    let eye = centre + towards * distance.max(1e-3);
-    Camera { eye: eye.to_array(), target: centre.to_array(), up: [0.0, 1.0, 0.0], fov_y, jitter: [0.0; 2] }
 }
 
 /// The radical inverse: 0…1, evenly spread over any number of successive indices.

@@ -44,6 +44,9 @@ pub(crate) fn step(
     if view == View::Object && !plan.features.has(Feature::Objects) {
         return missing("objects are not told apart");
     }
+    if view == View::Mean && !has(Image::Sum) {
+        return missing("frames are only summed in Mode::Reference");
+    }
     let paired = matches!(view, View::PairNow | View::PairBefore);
     if paired && plan.features.has(Feature::Unchanged) {
         return missing("nothing changed, so that no path was repeated");
@@ -107,6 +110,7 @@ pub(crate) fn step(
             ("motion", Slot::Now(Image::Motion), &[]),
             ("gradient", gradient, &[]),
             ("history", Slot::Now(Image::History), &[]),
+            ("sum", Slot::Now(Image::Sum), &[]),
             ("target_out", Slot::Target, &[]),
         ],
     );
@@ -126,6 +130,7 @@ pub(crate) fn step(
         View::Emission => &["emission"],
         View::Object => &["object"],
         View::PairNow | View::PairBefore => &["samples", "radiance", "albedo"],
+        View::Mean => &["sum"],
     };
     let used = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name));
     let bindings: Vec<_> = used.collect();

@@ -309,10 +309,10 @@ pub enum Interpolation {
 pub struct Pose {
     /// World matrix of each node.
     pub world: Vec<Matrix>,
-    /// Factor on the emission of each material.
-    pub emission: Vec<f32>,
-    /// Factor on the intensity of each light.
-    pub intensity: Vec<f32>,
+    /// Factor on the emission of each material, per colour channel.
+    pub emission: Vec<[f32; 3]>,
+    /// Factor on the intensity of each light, likewise.
+    pub intensity: Vec<[f32; 3]>,
 }
 
 /// Something in a file that could not be honoured; the rest was loaded.

@@ -69,7 +69,7 @@ pub(crate) fn luminance(c: [f32; 3]) -> f64 {
 }
 
 /// A light without area where its node stands, `factor` times as strong as described.
-pub(crate) fn punctual(light: &Light, world: &Matrix, factor: f32) -> GpuLight {
+pub(crate) fn punctual(light: &Light, world: &Matrix, factor: [f32; 3]) -> GpuLight {
     let world = Mat4::from_cols_array_2d(world);
     let axis = world.transform_vector3(Vec3::NEG_Z).normalize_or(Vec3::NEG_Z);
     // KHR_lights_punctual: intensity · saturate(cos·scale + offset)².
@@ -85,7 +85,7 @@ pub(crate) fn punctual(light: &Light, world: &Matrix, factor: f32) -> GpuLight {
         kind,
         position: world.w_axis.truncate().to_array(),
         axis: axis.to_array(),
-        intensity: light.intensity.map(|i| i * factor),
+        intensity: [0, 1, 2].map(|c| light.intensity[c] * factor[c]),
         // Beyond 10¹⁸ its fourth power would overflow; there it never fades.
         range: light.range.clamp(1e-6, 1e9),
         spot_scale: scale,
@@ -143,7 +143,7 @@ impl Emitter {
     pub fn analytic(&self, materials: &[Material], pose: &Pose) -> AnalyticLight {
         let placement = self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
         let scale = placement.determinant().abs().powf(2.0 / 3.0);
-        let factor = pose.emission[self.material] * scale;
+        let (emissive, factor) = (materials[self.material].emissive, pose.emission[self.material]);
         let flat = self.normal.length() > 0.5 * self.area;
         let shown = if flat { self.normal.length() } else { self.area / 4.0 };
         AnalyticLight {
@@ -151,7 +151,7 @@ impl Emitter {
             kind: if flat { EMITTER } else { POINT },
             axis: placement.transform_vector3(self.normal).normalize_or(Vec3::NEG_Y).to_array(),
             range: 1e9,
-            intensity: materials[self.material].emissive.map(|e| e * factor * shown),
+            intensity: [0, 1, 2].map(|c| emissive[c] * factor[c] * scale * shown),
             spot_scale: 0.0,
             spot_offset: 1.0,
             ..Default::default()

@@ -21,14 +21,14 @@ pub(super) struct GpuMaterial {
 }
 
 /// The materials, as bright as a pose's emission makes them.
-pub(super) fn materials(materials: &[Material], emission: &[f32], images: &[Place]) -> Vec<GpuMaterial> {
+pub(super) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &[Place]) -> Vec<GpuMaterial> {
     let texture = |t| texels::texture_use(t, images);
     materials
         .iter()
         .zip(emission)
         .map(|(m, factor)| GpuMaterial {
             base_color: m.base_color,
-            emissive: m.emissive.map(|e| e * factor),
+            emissive: [0, 1, 2].map(|c| m.emissive[c] * factor[c]),
             flags: u32::from(m.double_sided) | u32::from(m.unlit) << 1,
             metallic: m.metallic,
             roughness: m.roughness,

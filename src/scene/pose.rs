@@ -24,8 +24,8 @@ impl Scene {
     /// `None`, an index that does not exist, or a time that is not finite gives the rest pose (factors of 1).
     pub fn pose(&self, animation: Option<usize>, time: f32) -> Pose {
         let mut locals: Vec<Local> = self.nodes.iter().map(|node| Local::new(node.transform)).collect();
-        let mut emission = vec![1.0; self.materials.len()];
-        let mut intensity = vec![1.0; self.lights.len()];
+        let mut emission = vec![[1.0; 3]; self.materials.len()];
+        let mut intensity = vec![[1.0; 3]; self.lights.len()];
 
         if let Some(playing) = animation.and_then(|index| self.animations.get(index)).filter(|_| time.is_finite()) {
             let time = looped(time, playing.duration());
@@ -35,8 +35,10 @@ impl Scene {
                     Target::Translation(node) => set(&mut locals, node, |local| local.translation = value.truncate()),
                     Target::Rotation(node) => set(&mut locals, node, |local| local.rotation = unit(value)),
                     Target::Scale(node) => set(&mut locals, node, |local| local.scale = value.truncate()),
-                    Target::Emission(material) => set(&mut emission, material, |factor| *factor = value.x.max(0.0)),
-                    Target::Intensity(light) => set(&mut intensity, light, |factor| *factor = value.x.max(0.0)),
+                    Target::Emission(material) => {
+                        set(&mut emission, material, |factor| *factor = [value.x.max(0.0); 3])
+                    }
+                    Target::Intensity(light) => set(&mut intensity, light, |factor| *factor = [value.x.max(0.0); 3]),
                 }
             }
         }

@@ -304,7 +304,7 @@ impl GpuScene {
         if let Some(i) = pose.world.iter().position(|m| m.iter().flatten().any(|x| !x.is_finite())) {
             return wrong(format!("world[{i}]"), "is not finite");
         }
-        if pose.emission.iter().chain(&pose.intensity).any(|f| !(f.is_finite() && *f >= 0.0)) {
+        if pose.emission.iter().chain(&pose.intensity).flatten().any(|f| !(f.is_finite() && *f >= 0.0)) {
             return wrong("emission or intensity".into(), "is negative or not finite");
         }
         let before = std::mem::replace(&mut self.pose, pose.clone());

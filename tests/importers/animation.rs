@@ -49,7 +49,7 @@ fn rest_pose_without_an_animation() {
     assert_eq!(x_at(&scene, 77.0), 3.0);
     for pose in [scene.pose(None, 1.0), scene.pose(Some(1), 1.0), scene.pose(Some(0), f32::NAN)] {
         assert_eq!(pose.world[0][3][0], 0.0);
-        assert_eq!(pose.emission, [1.0]);
+        assert_eq!(pose.emission, [[1.0; 3]]);
     }
     assert_eq!((scene.find_animation("move"), scene.find_animation("rest")), (Some(0), None));
 }
@@ -76,8 +76,8 @@ fn cubic_splines_follow_their_tangents() {
 #[test]
 fn factors_do_not_fall_below_zero() {
     let scene = playing(Target::Emission(0), Interpolation::Linear, &[0.0, 4.0], &[[2.0; 4], [-2.0; 4]]);
-    assert_eq!(scene.pose(Some(0), 1.0).emission, [1.0]);
-    assert_eq!(scene.pose(Some(0), 3.0).emission, [0.0]);
+    assert_eq!(scene.pose(Some(0), 1.0).emission, [[1.0; 3]]);
+    assert_eq!(scene.pose(Some(0), 3.0).emission, [[0.0; 3]]);
 }
 
 #[test]

@@ -22,6 +22,8 @@ mod export;
 mod film;
 #[path = "../../examples/report/fit.rs"]
 mod fit;
+#[path = "../../examples/support/framing.rs"]
+mod framing;
 #[path = "../../examples/support/gpu.rs"]
 mod gpu;
 #[path = "../../examples/report/growth.rs"]
@@ -48,6 +50,8 @@ mod record;
 mod score;
 #[path = "../../examples/report/script.rs"]
 mod script;
+#[path = "../../examples/support/sky.rs"]
+mod sky;
 #[path = "../../examples/support/stage.rs"]
 mod stage;
 #[path = "../../examples/report/suite.rs"]

@@ -147,16 +147,19 @@ fn a_view_of_what_was_not_made() {
     };
     let mut stage = Stage::built_in("cornell", "static", SIZE, Settings::adaptive());
     expect(&mut stage, &View::ALL);
-    // Nothing moves or repeats, so that objects are not told apart; nothing changes, so that no path is repeated.
-    expect(stage.frames(2), &[View::Object, View::PairNow, View::PairBefore]);
+    // Nothing moves or repeats, so that objects are not told apart; nothing changes, so that no path is repeated; nothing is summed.
+    expect(stage.frames(2), &[View::Object, View::PairNow, View::PairBefore, View::Mean]);
     let everything = Stage::built_in("cornell", "static", SIZE, Settings::adaptive()).leaving_nothing_out();
-    expect({ everything }.frames(2), &[]);
+    expect({ everything }.frames(2), &[View::Mean]);
     let off = FilterSettings { gradient: Gradient::Off, ..Default::default() };
     stage.denoiser.set_settings(Settings { filter: off, ..Settings::adaptive() }).unwrap();
-    let gradient = [View::Object, View::Gradient, View::PairNow, View::PairBefore];
+    let gradient = [View::Object, View::Gradient, View::PairNow, View::PairBefore, View::Mean];
     expect(stage.frame(), &gradient);
     let history = [View::Lambda, View::Alpha, View::HistoryLength, View::Variance];
     let filtered = [View::Denoised, View::NonFinite];
     stage.denoiser.set_settings(Settings { mode: Mode::Noisy, ..Settings::adaptive() }).unwrap();
     expect(stage.frame(), &[history.as_slice(), &filtered, &gradient].concat());
+    stage.denoiser.set_settings(Settings { mode: Mode::Reference, ..Settings::adaptive() }).unwrap();
+    let summed = &gradient[..gradient.len() - 1];
+    expect(stage.frame(), &[history.as_slice(), &filtered, summed].concat());
 }

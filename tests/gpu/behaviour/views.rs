@@ -29,6 +29,14 @@ fn the_noisy_view_is_what_noisy_mode_shows() {
 }
 
 #[test]
+fn the_mean_is_what_a_reference_shows() {
+    let settings = Settings { mode: Mode::Reference, ..Settings::adaptive() };
+    let mut stage = Stage::built_in("cornell", "static", SIZE, settings);
+    stage.frames(3);
+    assert_eq!(stage.view(View::Mean), stage.image());
+}
+
+#[test]
 fn numbers_are_within_their_documented_ranges() {
     let mut stage = stage();
     let depth = stage.view(View::Depth);
@@ -75,8 +83,12 @@ fn the_gradients_pairs_are_in_the_pixels_of_their_paths() {
 #[test]
 fn every_view_has_a_picture_with_something_in_it() {
     let mut stage = stage();
+    let mut reference =
+        Stage::built_in("cornell", "static", SIZE, Settings { mode: Mode::Reference, ..Settings::adaptive() });
+    reference.frame();
     let target = gpu().target(SIZE, TextureFormat::Rgba8Unorm);
     for view in View::ALL {
+        let stage = if view == View::Mean { &mut reference } else { &mut stage };
         let options = ViewOptions { exposure: 1.0, range: view.default_range() };
         gpu().submit(|e| stage.denoiser.show(&gpu().device, e, view, options, &target)).unwrap();
         let texels = gpu().read(target.texture());

@@ -239,7 +239,7 @@ fn lights() -> Worst {
         let mut seen = 0.0_f32;
         for frame in 0..12 {
             let mut pose = stage.pose_at(0);
-            pose.intensity[199] = factors[usize::from(frame >= 8)];
+            pose.intensity[199] = [factors[usize::from(frame >= 8)]; 3];
             stage.frame_in(&pose);
             let lambda = stage.view(View::Lambda);
             let part = |range: std::ops::Range<usize>| {

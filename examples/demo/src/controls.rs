@@ -1,0 +1,246 @@
+//! The panels: they show what is chosen, change it, and ask for what is done once.
+
+use crate::action::Action;
+use crate::documentation;
+use crate::scenes::Stage;
+use crate::settings::{self, Kind, Setting};
+use crate::state::{Source, State};
+use crate::{plan, shortcuts, views};
+use asvgf::plan::Plan;
+use asvgf::scene::builtin;
+use asvgf::{Settings, ViewOptions};
+use eframe::egui::{Button, ComboBox, ScrollArea, Slider, TextEdit, Ui};
+use std::path::PathBuf;
+
+/// File names that are being typed.
+pub struct Fields {
+    scene: String,
+    state: String,
+    picture: String,
+}
+
+impl Default for Fields {
+    fn default() -> Self {
+        Self { scene: String::new(), state: "demo.json".into(), picture: "picture.png".into() }
+    }
+}
+
+/// What the panels show beside what is chosen.
+pub struct Facts<'a> {
+    pub stage: &'a Stage,
+    /// What ran in the last frame of the left half.
+    pub plan: Option<&'a Plan>,
+    /// Name of the adapter, and what it is.
+    pub adapter: &'a str,
+    /// The scale where none was chosen.
+    pub scale: f32,
+    /// The image in pixels.
+    pub size: [u32; 2],
+    /// What is under the pointer.
+    pub probe: Option<String>,
+    pub view: ViewOptions,
+}
+
+/// What comes first: which α, how much of it, and both side by side.
+pub fn top(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        for source in Source::SHOWN {
+            ui.selectable_value(&mut state.left, source, source.name()).on_hover_text("A: adaptive or constant");
+        }
+        ui.separator();
+        ui.add(Slider::new(&mut state.alpha, 0.01..=1.0).logarithmic(true).text("constant α"))
+            .on_hover_text("The weight of each new frame in the moving average. Higher: noisier. Lower: lags.");
+        ui.separator();
+        ui.checkbox(&mut state.split, "split").on_hover_text("D: two halves with the same noise; drag the divider");
+        if state.split {
+            ComboBox::from_label("right half").selected_text(state.right.name()).show_ui(ui, |ui| {
+                for source in Source::SHOWN {
+                    ui.selectable_value(&mut state.right, source, source.name());
+                }
+            });
+        }
+        ui.separator();
+        ui.toggle_value(&mut state.paused, "pause").on_hover_text("Space");
+        if ui.add_enabled(state.paused, Button::new("step")).on_hover_text("S: one frame").clicked() {
+            actions.push(Action::Step);
+        }
+        if ui.button("reset").on_hover_text("R: forget all history").clicked() {
+            actions.push(Action::Reset);
+        }
+        ui.toggle_value(&mut state.plots, "plots").on_hover_text("P: errors, means and times, live");
+    });
+}
+
+/// Everything else.
+pub fn side(ui: &mut Ui, state: &mut State, fields: &mut Fields, facts: &Facts<'_>, actions: &mut Vec<Action>) {
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let open = |title| eframe::egui::CollapsingHeader::new(title).default_open(true);
+        open("light and motion").show(ui, |ui| motion(ui, state, facts.stage));
+        open("view").show(ui, |ui| {
+            views::choose(ui, &mut state.view);
+            ui.add(Slider::new(&mut state.exposure, 0.1..=10.0).logarithmic(true).text("exposure"));
+            views::legend(ui, state.view(), facts.view);
+            ui.label(facts.probe.as_deref().unwrap_or("point at the picture for its numbers"));
+        });
+        open("scene and camera").show(ui, |ui| {
+            scene(ui, state, fields, actions);
+            camera(ui, state, actions);
+            let mut scale = state.scale.unwrap_or(facts.scale);
+            let slider = Slider::new(&mut scale, 0.05..=1.0).logarithmic(true).text("resolution");
+            if ui.add(slider).on_hover_text("Pixels of the image per pixel of the window").changed() {
+                state.scale = Some(scale);
+            }
+            ui.label(format!("{} × {} pixels", facts.size[0], facts.size[1]));
+            ui.label(facts.adapter);
+        });
+        ui.collapsing("settings", |ui| all_settings(ui, state, actions));
+        ui.collapsing("files", |ui| files(ui, fields, actions));
+        ui.collapsing("plan", |ui| match facts.plan {
+            Some(p) => plan::show(ui, p),
+            None => {
+                ui.label("no frame was rendered yet");
+            }
+        });
+        open("keys").show(ui, shortcuts::list);
+        ui.collapsing("notes on the scene", |ui| {
+            if facts.stage.notes.is_empty() {
+                ui.label("nothing was left out");
+            }
+            for note in &facts.stage.notes {
+                ui.label(note);
+            }
+        });
+    });
+}
+
+fn motion(ui: &mut Ui, state: &mut State, stage: &Stage) {
+    let motion = &mut state.motion;
+    let reach = stage.reach();
+    if stage.has_lamps() {
+        ui.checkbox(&mut motion.lit, "lamps on").on_hover_text("L");
+        ui.checkbox(&mut motion.blink, "lamps blink").on_hover_text("B: a second on, a second off");
+        ui.add(Slider::new(&mut motion.brightness, 0.0..=3.0).text("brightness"));
+        ui.horizontal(|ui| {
+            let label = ui.label("colour of the lamps");
+            ui.color_edit_button_rgb(&mut motion.tint).labelled_by(label.id);
+        });
+        for (axis, label) in [(0, "lamps sideways"), (2, "lamps forward")] {
+            ui.add(Slider::new(&mut motion.lamp[axis], -reach..=reach).text(label));
+        }
+    }
+    if let Some(name) = &stage.object_name {
+        for (axis, label) in [(0, "sideways"), (2, "forward")] {
+            ui.add(Slider::new(&mut motion.object[axis], -reach..=reach).text(format!("{name} {label}")));
+        }
+    }
+    for name in stage.animations() {
+        let mut plays = motion.playing.iter().any(|playing| playing == name);
+        if ui.checkbox(&mut plays, name.replace('-', " ")).changed() {
+            motion.playing.retain(|playing| playing != name);
+            motion.playing.extend(plays.then(|| name.to_owned()));
+        }
+    }
+    ui.checkbox(&mut motion.shake, "shake the camera");
+}
+
+fn scene(ui: &mut Ui, state: &State, fields: &mut Fields, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        for name in builtin::NAMES {
+            if ui.selectable_label(state.scene == name, name).clicked() {
+                actions.push(Action::Open(name.into()));
+            }
+        }
+    });
+    let (path, open) = file(ui, &mut fields.scene, "glTF or OBJ file; or drop one here", &["open"]);
+    if open.is_some() && !path.is_empty() {
+        actions.push(Action::Open(path));
+    }
+}
+
+fn camera(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.checkbox(&mut state.fly, "fly").on_hover_text("F: drag turns the head, arrows walk");
+        if ui.button("cut").on_hover_text("C: a quarter of the way around at once, and a new history").clicked() {
+            actions.push(Action::Cut);
+        }
+        if ui.button("home").on_hover_text("H: the scene's own camera").clicked() {
+            actions.push(Action::Home);
+        }
+    });
+}
+
+fn files(ui: &mut Ui, fields: &mut Fields, actions: &mut Vec<Action>) {
+    let (path, pressed) = file(ui, &mut fields.state, "file of settings", &["save", "load"]);
+    match pressed {
+        Some("save") => actions.push(Action::Save(PathBuf::from(path))),
+        Some(_) => actions.push(Action::Load(PathBuf::from(path))),
+        None => {}
+    }
+    let (path, pressed) = file(ui, &mut fields.picture, ".png or, as numbers, .exr", &["screenshot"]);
+    if pressed.is_some() {
+        actions.push(Action::Picture(PathBuf::from(path)));
+    }
+}
+
+/// A line for a file name with buttons; returns the name and which was pressed.
+fn file(ui: &mut Ui, text: &mut String, hint: &str, buttons: &[&'static str]) -> (String, Option<&'static str>) {
+    let mut pressed = None;
+    ui.horizontal(|ui| {
+        ui.add(TextEdit::singleline(text).hint_text(hint).desired_width(150.0)).on_hover_text(hint);
+        for button in buttons {
+            if ui.button(*button).clicked() {
+                pressed = Some(*button);
+            }
+        }
+    });
+    (text.trim().to_owned(), pressed)
+}
+
+fn all_settings(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label("preset");
+        // The paths stay as they are: presets are of the filter.
+        if ui.button("default").clicked() {
+            state.settings.filter = Settings::adaptive().filter;
+        }
+        if ui.button("classic").on_hover_text("The formulas as published").clicked() {
+            state.settings.filter = Settings::classic().filter;
+        }
+        if ui.button("everything as at the start").clicked() {
+            actions.push(Action::Restore);
+        }
+    });
+    for (title, list) in [("filter", settings::FILTER), ("path tracer", settings::TRACER)] {
+        ui.label(title);
+        for one in list {
+            setting(ui, &mut state.settings, one);
+        }
+    }
+}
+
+fn setting(ui: &mut Ui, settings: &mut Settings, setting: &Setting) {
+    let label = setting.name.replace('_', " ");
+    let response = match &setting.kind {
+        Kind::Number { range, logarithmic, field } => {
+            ui.add(Slider::new(field(settings), range.clone()).logarithmic(*logarithmic).text(label))
+        }
+        Kind::Whole { range, field } => ui.add(Slider::new(field(settings), range.clone()).text(label)),
+        Kind::Switch { field } => ui.checkbox(field(settings), label),
+        Kind::OneOf { names, get, set } => {
+            let mut chosen = get(settings);
+            let list = ComboBox::from_label(label).selected_text(names[chosen]);
+            let response = list.show_ui(ui, |ui| {
+                for (i, name) in names.iter().enumerate() {
+                    ui.selectable_value(&mut chosen, i, *name);
+                }
+            });
+            if chosen != get(settings) {
+                set(settings, chosen);
+            }
+            response.response
+        }
+    };
+    if let Some(text) = documentation::of_setting(setting.name) {
+        response.on_hover_text(text);
+    }
+}

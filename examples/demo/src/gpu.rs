@@ -1,0 +1,28 @@
+//! The device that eframe is to make.
+
+use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use std::sync::Arc;
+use wgpu::{Backends, DeviceDescriptor, Features, Limits};
+
+/// No more than every WebGPU device has, and where there is more: timestamps, and room for large scenes.
+pub fn configuration() -> WgpuConfiguration {
+    WgpuConfiguration { wgpu_setup: setup(), ..Default::default() }
+}
+
+/// How eframe is to choose the adapter and make the device.
+pub fn setup() -> WgpuSetup {
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    // OpenGL lacks storage textures of some of the formats; WGPU_BACKEND may still ask for it.
+    setup.instance_descriptor.backends = Backends::from_env().unwrap_or(Backends::PRIMARY);
+    setup.device_descriptor = Arc::new(|adapter| DeviceDescriptor {
+        label: Some("demo"),
+        required_features: adapter.features() & Features::TIMESTAMP_QUERY,
+        required_limits: Limits {
+            max_buffer_size: adapter.limits().max_buffer_size,
+            max_storage_buffer_binding_size: adapter.limits().max_storage_buffer_binding_size,
+            ..Limits::default()
+        },
+        ..Default::default()
+    });
+    WgpuSetup::CreateNew(setup)
+}

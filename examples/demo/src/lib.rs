@@ -1,0 +1,36 @@
+//! The denoiser in a window, to see the difference that an adaptive α makes.
+//!
+//! [`embed`] is what a host of one's own has to do; the rest is this program's window. Data flows one way: `controls` and
+//! `shortcuts` change the [`state`] and ask for `action`s, `picture` makes a frame of it, and `embed` renders that.
+
+mod action;
+pub mod app;
+mod camera;
+mod controls;
+mod documentation;
+pub mod embed;
+#[path = "../../support/framing.rs"]
+mod framing;
+pub mod gpu;
+mod means;
+mod messages;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod options;
+pub mod picture;
+mod plan;
+mod plots;
+mod probe;
+mod readback;
+mod scenes;
+mod screenshot;
+mod settings;
+mod shortcuts;
+#[path = "../../support/sky.rs"]
+mod sky;
+mod split;
+pub mod state;
+mod stopwatch;
+mod trouble;
+mod views;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod window_shot;

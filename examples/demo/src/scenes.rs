@@ -1,0 +1,230 @@
+//! The scene on show: where it comes from, and what of it moves.
+
+use crate::framing::{bounds, framing};
+use crate::sky::{is_dark, sky};
+use crate::state::Motion;
+use asvgf::Camera;
+use asvgf::scene::{self, Animation, Pose, Scene, builtin};
+use glam::{Mat4, Vec3};
+use std::path::Path;
+
+/// Seconds that a blinking lamp is on, and off.
+const BLINK: f32 = 1.0;
+
+/// What a scene's own camera may be called in a list of animations.
+const CAMERA: &str = "move-camera";
+
+/// A scene with the nodes that can be moved by hand.
+pub struct Stage {
+    pub scene: Scene,
+    /// What was left out of a file, and what was added.
+    pub notes: Vec<String>,
+    /// What the object that can be moved is called.
+    pub object_name: Option<String>,
+    /// All its animations; `scene` has those that play as one.
+    animations: Vec<Animation>,
+    /// Whether each node goes along with the lamps, or with the object.
+    with_lamps: Vec<bool>,
+    with_object: Vec<bool>,
+    bounds: [Vec3; 2],
+}
+
+impl Stage {
+    /// A built-in scene or a file. The error is what to tell the user.
+    pub fn open(name: &str) -> Result<Self, String> {
+        match Self::built_in(name) {
+            Some(stage) => Ok(stage),
+            None => Self::file(Path::new(name)),
+        }
+    }
+
+    fn built_in(name: &str) -> Option<Self> {
+        let mut scene = builtin::scene(name, "all")?;
+        // Each animation by itself, so that they can be played in any combination. Lamps blink without one.
+        let single = builtin::ANIMATIONS.into_iter().filter(|n| !["static", "blink", "all"].contains(n));
+        scene.animations = single.filter_map(|n| builtin::scene(name, n)).flat_map(|s| s.animations).collect();
+        let object = scene.nodes.iter().position(|node| ["tall block", "block"].contains(&node.name.as_str()));
+        Some(Self::new(scene, object, Vec::new()))
+    }
+
+    fn file(path: &Path) -> Result<Self, String> {
+        let loaded = scene::load(path).map_err(|error| error.to_string())?;
+        let mut scene = loaded.scene;
+        let mut notes: Vec<String> = loaded.warnings.iter().map(|w| format!("{}: {}", w.element, w.reason)).collect();
+        if is_dark(&scene) {
+            notes.push("the scene has no light; a soft sky was added".into());
+            scene.environment = Some(sky());
+        }
+        for (i, animation) in scene.animations.iter_mut().enumerate().filter(|(_, a)| a.name.is_empty()) {
+            animation.name = format!("animation {i}");
+        }
+        // The smallest mesh: the rest may be the room.
+        let size =
+            |node: usize| scene.nodes[node].meshes.iter().map(|&m| scene.meshes[m].triangles.len()).sum::<usize>();
+        let solid = |&node: &usize| !scene.nodes[node].meshes.is_empty() && !emits(&scene, node);
+        let several = (0..scene.nodes.len()).filter(solid).count() > 1;
+        let object = (0..scene.nodes.len()).filter(solid).min_by_key(|&n| size(n)).filter(|_| several);
+        Ok(Self::new(scene, object, notes))
+    }
+
+    fn new(mut scene: Scene, object: Option<usize>, notes: Vec<String>) -> Self {
+        let lamps: Vec<usize> = (0..scene.nodes.len()).filter(|&n| emits(&scene, n)).collect();
+        for &node in lamps.iter().chain(&object) {
+            scene.nodes[node].movable = true;
+        }
+        let with_lamps = followers(&scene, |node| lamps.contains(&node));
+        let with_object = followers(&scene, |node| Some(node) == object);
+        let bounds = bounds(&scene).unwrap_or([Vec3::NEG_ONE, Vec3::ONE]);
+        let name = |node: usize| Some(&scene.nodes[node].name).filter(|n| !n.is_empty()).cloned();
+        Self {
+            object_name: object.map(|node| name(node).unwrap_or_else(|| format!("node {node}"))),
+            animations: scene.animations.clone(),
+            with_lamps,
+            with_object,
+            bounds,
+            notes,
+            scene,
+        }
+    }
+
+    /// Names of the animations; the lamps blink, and the camera trembles, without one.
+    pub fn animations(&self) -> impl Iterator<Item = &str> {
+        self.animations.iter().map(|a| a.name.as_str())
+    }
+
+    /// Whether there is a lamp that can be switched and moved.
+    pub fn has_lamps(&self) -> bool {
+        self.with_lamps.contains(&true)
+    }
+
+    /// How far things may be moved by hand, in metres.
+    pub fn reach(&self) -> f32 {
+        0.25 * (self.bounds[1] - self.bounds[0]).max_element()
+    }
+
+    /// The middle of everything.
+    pub fn centre(&self) -> [f32; 3] {
+        (0.5 * (self.bounds[0] + self.bounds[1])).to_array()
+    }
+
+    /// Where everything is at a moment.
+    pub fn pose(&mut self, motion: &Motion, time: f32) -> Pose {
+        self.scene.animations = vec![self.together(&motion.playing)];
+        let mut pose = self.scene.pose(Some(0), time);
+        let factor = if motion.lit && !(motion.blink && is_out(time)) { motion.brightness } else { 0.0 };
+        for channels in pose.emission.iter_mut().chain(&mut pose.intensity) {
+            *channels = [0, 1, 2].map(|c| channels[c] * factor * motion.tint[c]);
+        }
+        for (node, world) in pose.world.iter_mut().enumerate() {
+            for (follows, offset) in [(&self.with_lamps, motion.lamp), (&self.with_object, motion.object)] {
+                if follows[node] {
+                    *world =
+                        (Mat4::from_translation(offset.into()) * Mat4::from_cols_array_2d(world)).to_cols_array_2d();
+                }
+            }
+        }
+        pose
+    }
+
+    /// The camera of the scene, or one that frames it.
+    pub fn camera(&self, pose: &Pose, aspect: f32) -> Camera {
+        let own = self.scene.camera_node().and_then(|node| self.scene.camera_view(pose, node));
+        match own {
+            Some(v) => Camera { eye: v.eye, target: v.target, up: v.up, fov_y: v.fov_y, jitter: [0.0; 2] },
+            None => framing(self.bounds, aspect, 0.7),
+        }
+    }
+
+    /// Whether an animation moves the camera.
+    pub fn moves_camera(name: &str) -> bool {
+        name == CAMERA
+    }
+
+    /// Several animations as one; where two move the same, the first does.
+    fn together(&self, playing: &[String]) -> Animation {
+        let mut one = Animation::default();
+        for channel in self.animations.iter().filter(|a| playing.contains(&a.name)).flat_map(|a| &a.channels) {
+            if !one.channels.iter().any(|c| c.target == channel.target) {
+                one.channels.push(channel.clone());
+            }
+        }
+        one
+    }
+}
+
+/// Whether blinking lamps are out.
+fn is_out(time: f32) -> bool {
+    (time / BLINK).rem_euclid(2.0) >= 1.0
+}
+
+/// Whether a node gives light.
+fn emits(scene: &Scene, node: usize) -> bool {
+    let node = &scene.nodes[node];
+    let bright =
+        |mesh: &usize| scene.materials.get(scene.meshes[*mesh].material).is_some_and(|m| m.emissive != [0.0; 3]);
+    node.light.is_some() || node.meshes.iter().any(bright)
+}
+
+/// For each node whether it, or a node that it hangs on, is chosen.
+fn followers(scene: &Scene, chosen: impl Fn(usize) -> bool) -> Vec<bool> {
+    let mut follows: Vec<bool> = Vec::with_capacity(scene.nodes.len());
+    for (i, node) in scene.nodes.iter().enumerate() {
+        follows.push(chosen(i) || node.parent.is_some_and(|parent| follows[parent]));
+    }
+    follows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cornell() -> Stage {
+        Stage::open("cornell").unwrap()
+    }
+
+    fn still() -> Motion {
+        Motion { blink: false, ..Motion::default() }
+    }
+
+    fn node(stage: &Stage, name: &str) -> usize {
+        stage.scene.nodes.iter().position(|n| n.name == name).unwrap()
+    }
+
+    #[test]
+    fn lamps_blink_and_dim() {
+        let mut stage = cornell();
+        let lamp =
+            |stage: &mut Stage, motion: &Motion, time| stage.pose(motion, time).emission.iter().flatten().sum::<f32>();
+        let on = lamp(&mut stage, &still(), 1.5);
+        assert!(on > 0.0);
+        let blink = Motion { blink: true, ..still() };
+        assert_eq!((lamp(&mut stage, &blink, 0.5), lamp(&mut stage, &blink, 1.5)), (on, 0.0));
+        assert_eq!(lamp(&mut stage, &Motion { lit: false, ..still() }, 0.0), 0.0);
+        assert_eq!(lamp(&mut stage, &Motion { brightness: 0.5, ..still() }, 0.0), 0.5 * on);
+        let red = stage.pose(&Motion { tint: [1.0, 0.0, 0.0], ..still() }, 0.0);
+        assert!(red.emission.iter().all(|factor| *factor == [1.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn only_what_is_chosen_moves() {
+        let mut stage = cornell();
+        let rest = stage.pose(&still(), 0.5);
+        let by_hand = stage.pose(&Motion { lamp: [0.1, 0.0, 0.0], object: [0.0, 0.0, 0.2], ..still() }, 0.5);
+        let (lamp, block) = (node(&stage, "lamp"), node(&stage, "tall block"));
+        assert!((by_hand.world[lamp][3][0] - rest.world[lamp][3][0] - 0.1).abs() < 1e-6);
+        assert!((by_hand.world[block][3][2] - rest.world[block][3][2] - 0.2).abs() < 1e-6);
+        let short = node(&stage, "short block");
+        assert_eq!(by_hand.world[short], rest.world[short]);
+        let played = stage.pose(&Motion { playing: vec!["move-object".into()], ..still() }, 0.5);
+        assert_ne!(played.world[block], rest.world[block]);
+        assert_eq!(played.world[lamp], rest.world[lamp]);
+    }
+
+    #[test]
+    fn a_missing_file_is_named() {
+        let error = Stage::open("no/such/room.glb").err().unwrap();
+        assert!(error.contains("room.glb"), "{error}");
+        let error = Stage::open("nonsense").err().unwrap();
+        assert!(error.contains("nonsense"), "{error}");
+    }
+}

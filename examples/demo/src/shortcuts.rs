@@ -1,0 +1,105 @@
+//! Keys, and what they do.
+
+use crate::action::Action;
+use crate::state::State;
+use asvgf::View;
+use eframe::egui::{Key, Ui};
+
+/// Parts of the distance to what is looked at, walked by one press of an arrow.
+const STRIDE: f32 = 0.05;
+
+/// What the digits show, from 1 on.
+pub const VIEWS: [View; 9] = [
+    View::Denoised,
+    View::Noisy,
+    View::Albedo,
+    View::Normal,
+    View::Motion,
+    View::Gradient,
+    View::Lambda,
+    View::HistoryLength,
+    View::Variance,
+];
+
+const DIGITS: [Key; 9] =
+    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+
+/// What a key does.
+enum Effect {
+    Choose(fn(&mut State)),
+    Do(Action),
+}
+
+struct Shortcut {
+    key: Key,
+    help: &'static str,
+    effect: Effect,
+}
+
+/// Every key but the digits.
+fn shortcuts() -> Vec<Shortcut> {
+    let choose = |key, help, change| Shortcut { key, help, effect: Effect::Choose(change) };
+    let once = |key, help, action| Shortcut { key, help, effect: Effect::Do(action) };
+    vec![
+        choose(Key::A, "adaptive or constant α", State::toggle),
+        choose(Key::D, "divide the picture", |s| s.split = !s.split),
+        choose(Key::Space, "pause", |s| s.paused = !s.paused),
+        once(Key::S, "one frame, while paused", Action::Step),
+        once(Key::R, "forget all history", Action::Reset),
+        choose(Key::L, "lamps on or off", |s| s.motion.lit = !s.motion.lit),
+        choose(Key::B, "lamps blink", |s| s.motion.blink = !s.motion.blink),
+        choose(Key::P, "plots", |s| s.plots = !s.plots),
+        choose(Key::F, "go around or fly", |s| s.fly = !s.fly),
+        once(Key::C, "camera cut", Action::Cut),
+        once(Key::H, "the scene's own camera", Action::Home),
+        once(Key::ArrowUp, "walk forward", Action::Walk([0.0, 0.0, STRIDE])),
+        once(Key::ArrowDown, "backward", Action::Walk([0.0, 0.0, -STRIDE])),
+        once(Key::ArrowLeft, "to the left", Action::Walk([-STRIDE, 0.0, 0.0])),
+        once(Key::ArrowRight, "to the right", Action::Walk([STRIDE, 0.0, 0.0])),
+        once(Key::PageUp, "up", Action::Walk([0.0, STRIDE, 0.0])),
+        once(Key::PageDown, "down", Action::Walk([0.0, -STRIDE, 0.0])),
+    ]
+}
+
+/// Does what the pressed keys say, unless text is being typed.
+pub fn read(ui: &Ui, state: &mut State, actions: &mut Vec<Action>) {
+    if ui.ctx().egui_wants_keyboard_input() {
+        return;
+    }
+    ui.input(|input| {
+        for shortcut in shortcuts().into_iter().filter(|s| input.key_pressed(s.key)) {
+            match shortcut.effect {
+                Effect::Choose(change) => change(state),
+                Effect::Do(action) => actions.push(action),
+            }
+        }
+        for (_, view) in DIGITS.iter().zip(VIEWS).filter(|(key, _)| input.key_pressed(**key)) {
+            state.view = view.name().into();
+        }
+    });
+}
+
+/// The list in the window.
+pub fn list(ui: &mut Ui) {
+    for shortcut in shortcuts() {
+        ui.label(format!("{}: {}", shortcut.key.name(), shortcut.help));
+    }
+    for (key, view) in DIGITS.iter().zip(VIEWS) {
+        ui.label(format!("{}: {}", key.name(), view.name().replace('-', " ")));
+    }
+    ui.label("drag: turn · right button: shift · wheel: nearer or farther");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_key_has_two_meanings() {
+        let mut keys: Vec<Key> = shortcuts().iter().map(|s| s.key).chain(DIGITS).collect();
+        let count = keys.len();
+        keys.sort();
+        keys.dedup();
+        assert_eq!(keys.len(), count);
+    }
+}

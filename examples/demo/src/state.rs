@@ -1,0 +1,270 @@
+//! What the user has chosen: all that the frame is made from, and all that a saved file holds.
+
+use crate::settings;
+use asvgf::{Gradient, Mode, Settings, View};
+use serde::{Deserialize, Serialize};
+
+/// Where the pixels of a half come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Source {
+    /// The denoiser with an adaptive α.
+    Adaptive,
+    /// The same with a constant α.
+    Constant,
+    /// The samples as they are traced.
+    Noisy,
+    /// The mean of all samples since anything moved.
+    Reference,
+    /// Another such mean, from other random numbers. Only to measure with: see means.rs.
+    Witness,
+}
+
+impl Source {
+    /// Those that can be looked at.
+    pub const SHOWN: [Self; 4] = [Self::Adaptive, Self::Constant, Self::Noisy, Self::Reference];
+
+    /// As the window calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Adaptive => "adaptive α",
+            Self::Constant => "constant α",
+            Self::Noisy => "1 spp",
+            Self::Reference => "reference",
+            Self::Witness => "second reference",
+        }
+    }
+
+    /// What its denoiser has to show where `view` is asked for: each has a picture of its own kind.
+    pub fn view(self, view: View) -> View {
+        match (self, view) {
+            (Self::Noisy, View::Denoised) => View::Noisy,
+            (Self::Reference | Self::Witness, View::Denoised) => View::Mean,
+            _ => view,
+        }
+    }
+}
+
+/// What moves, beside the camera.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Motion {
+    /// Names of the scene's animations that play.
+    pub playing: Vec<String>,
+    /// All lamps are on.
+    pub lit: bool,
+    /// They go out and come back, a second each.
+    pub blink: bool,
+    /// Factor on their light.
+    pub brightness: f32,
+    /// … of each colour channel, 0…1.
+    pub tint: [f32; 3],
+    /// From where the scene has them, in metres.
+    pub lamp: [f32; 3],
+    /// Likewise of the object that can be moved.
+    pub object: [f32; 3],
+    /// The camera trembles.
+    pub shake: bool,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self {
+            playing: Vec::new(),
+            lit: true,
+            blink: true,
+            brightness: 1.0,
+            tint: [1.0; 3],
+            lamp: [0.0; 3],
+            object: [0.0; 3],
+            shake: false,
+        }
+    }
+}
+
+/// Everything that the user has chosen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct State {
+    /// What the picture shows, or its left half.
+    pub left: Source,
+    /// What the right half shows.
+    pub right: Source,
+    /// Both halves are shown.
+    pub split: bool,
+    /// Where they meet, 0…1.
+    pub divider: f32,
+    /// α of [`Source::Constant`].
+    pub alpha: f32,
+    /// What is shown of the frame, by the name of its [`View`].
+    pub view: String,
+    /// Factor on radiance.
+    pub exposure: f32,
+    /// Pixels of the image per pixel of the window, along each axis; `None` as it suits the adapter.
+    pub scale: Option<f32>,
+    /// Time stands still.
+    pub paused: bool,
+    /// Drag turns the head instead of going around.
+    pub fly: bool,
+    /// The scene: a built-in one's name, or a file.
+    pub scene: String,
+    pub motion: Motion,
+    /// Errors and means are measured and plotted.
+    pub plots: bool,
+    #[serde(with = "settings::stored")]
+    pub settings: Settings,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self {
+            left: Source::Adaptive,
+            right: Source::Constant,
+            split: false,
+            divider: 0.5,
+            // As in `render`, and in the papers.
+            alpha: 0.2,
+            view: View::Denoised.name().into(),
+            exposure: 1.0,
+            scale: None,
+            paused: false,
+            fly: false,
+            scene: "cornell".into(),
+            motion: Motion::default(),
+            plots: false,
+            settings: Settings::adaptive(),
+        }
+    }
+}
+
+impl State {
+    /// The view that is shown; the picture, where a saved file names one that there is not.
+    pub fn view(&self) -> View {
+        View::ALL.into_iter().find(|view| view.name() == self.view).unwrap_or(View::Denoised)
+    }
+
+    /// What goes to the left or right half is adaptive where it was constant, and the other way round.
+    pub fn toggle(&mut self) {
+        let other = if self.left == Source::Adaptive { Source::Constant } else { Source::Adaptive };
+        if self.split && self.right == other {
+            self.right = self.left;
+        }
+        self.left = other;
+    }
+
+    /// What has to be rendered, the picture's sources first.
+    pub fn sources(&self) -> Vec<Source> {
+        let mut sources = vec![self.left];
+        let measured = [Source::Adaptive, Source::Constant, Source::Reference, Source::Witness];
+        let right = self.split.then_some(self.right);
+        for source in right.into_iter().chain(measured.into_iter().filter(|_| self.plots)) {
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        sources
+    }
+
+    /// What the denoiser of a source does.
+    pub fn settings(&self, source: Source) -> Settings {
+        let mut settings = self.settings.clone();
+        match source {
+            Source::Adaptive if settings.filter.gradient == Gradient::Off => {
+                settings.filter.gradient = Gradient::Reshade;
+            }
+            Source::Adaptive => {}
+            Source::Constant => settings = settings.constant(self.alpha),
+            Source::Noisy => settings.mode = Mode::Noisy,
+            Source::Reference | Source::Witness => {
+                settings.mode = Mode::Reference;
+                // Noise that has nothing to do with what is measured against it.
+                settings.tracer.seed ^= if source == Source::Reference { 0x5eed_0000 } else { 0x5eed_1111 };
+            }
+        }
+        settings
+    }
+
+    /// Back to how it started; the scene and the scale stay.
+    pub fn restore(&mut self) {
+        *self = Self { scene: std::mem::take(&mut self.scene), scale: self.scale, ..Self::default() };
+    }
+
+    /// As text to save.
+    pub fn save(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+
+    /// From saved text. The error says where it is wrong.
+    pub fn load(text: &str) -> Result<Self, String> {
+        let state: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let fits = |value: f32, range: std::ops::RangeInclusive<f32>| range.contains(&value);
+        let within = fits(state.divider, 0.0..=1.0)
+            && fits(state.alpha, 0.0..=1.0)
+            && state.scale.is_none_or(|scale| fits(scale, 0.05..=1.0))
+            && fits(state.exposure, 1e-3..=1e3)
+            && fits(state.motion.brightness, 0.0..=100.0)
+            && state.motion.tint.iter().all(|&t| fits(t, 0.0..=1.0));
+        if within { Ok(state) } else { Err("a number is outside its range".into()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_saved_is_loaded() {
+        let state = State { split: true, divider: 0.25, settings: Settings::classic(), ..State::default() };
+        assert_eq!(State::load(&state.save()).unwrap(), state);
+        // A file may say only what differs.
+        let partial = State::load(r#"{"alpha": 0.5, "settings": {"iterations": 2}}"#).unwrap();
+        assert_eq!((partial.alpha, partial.settings.filter.iterations), (0.5, 2));
+    }
+
+    #[test]
+    fn a_broken_file_is_refused() {
+        for text in ["", "{", r#"{"alpha": 7}"#, r#"{"settings": {"nonsense": 1}}"#, r#"{"left": "Sideways"}"#] {
+            assert!(State::load(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_toggle_swaps_halves_that_would_be_alike() {
+        let mut state = State { split: true, ..State::default() };
+        state.toggle();
+        assert_eq!((state.left, state.right), (Source::Constant, Source::Adaptive));
+        state.split = false;
+        state.toggle();
+        assert_eq!(state.left, Source::Adaptive);
+    }
+
+    #[test]
+    fn both_halves_share_their_noise_and_references_do_not() {
+        let state = State::default();
+        let seed = |source| state.settings(source).tracer.seed;
+        assert_eq!(seed(Source::Adaptive), seed(Source::Constant));
+        assert_eq!(seed(Source::Adaptive), seed(Source::Noisy));
+        assert_ne!(seed(Source::Adaptive), seed(Source::Reference));
+        assert_ne!(seed(Source::Witness), seed(Source::Reference));
+    }
+
+    #[test]
+    fn only_what_is_looked_at_is_rendered() {
+        let mut state = State::default();
+        assert_eq!(state.sources(), [Source::Adaptive]);
+        state.split = true;
+        assert_eq!(state.sources(), [Source::Adaptive, Source::Constant]);
+        state.right = Source::Adaptive;
+        assert_eq!(state.sources(), [Source::Adaptive]);
+        state.plots = true;
+        assert_eq!(state.sources().len(), 4);
+    }
+
+    #[test]
+    fn constant_is_constant_and_adaptive_is_not_whatever_the_panel_says() {
+        let mut state = State { alpha: 0.1, ..State::default() };
+        state.settings.filter.gradient = Gradient::Off;
+        assert_eq!(state.settings(Source::Adaptive).filter.gradient, Gradient::Reshade);
+        let constant = state.settings(Source::Constant).filter;
+        assert_eq!((constant.gradient, constant.alpha), (Gradient::Off, 0.1));
+    }
+}

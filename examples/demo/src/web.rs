@@ -1,0 +1,60 @@
+//! The demo in a browser: what the page calls.
+
+use asvgf_demo::app::Demo;
+use asvgf_demo::gpu;
+use asvgf_demo::state::State;
+use eframe::web_sys::HtmlCanvasElement;
+use eframe::{WebOptions, WebRunner};
+use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
+
+/// A canvas with the demo on it.
+#[wasm_bindgen]
+pub struct Page {
+    runner: WebRunner,
+}
+
+#[wasm_bindgen]
+impl Page {
+    /// Starts the demo. The error is what to tell the user.
+    pub async fn start(canvas: HtmlCanvasElement) -> Result<Page, JsValue> {
+        let runner = WebRunner::new();
+        let options = WebOptions { wgpu_options: gpu::configuration(), ..Default::default() };
+        let create: eframe::AppCreator<'static> = Box::new(|context| {
+            let gpu = context.wgpu_render_state.as_ref().ok_or("this browser has no WebGPU")?;
+            Ok(Box::new(Demo::new(gpu, State::default())?))
+        });
+        runner.start(canvas, options, create).await?;
+        Ok(Self { runner })
+    }
+
+    /// Chooses what a saved file says.
+    pub fn choose(&self, saved: &str) -> Result<(), JsValue> {
+        let state = State::load(saved)?;
+        self.demo(|demo| demo.adopt(state))
+    }
+
+    /// Frames that were rendered so far.
+    pub fn frames(&self) -> Result<u32, JsValue> {
+        self.demo(|demo| demo.frames())
+    }
+
+    /// Asks for the linear radiance of the left half's last frame.
+    pub fn ask(&self) -> Result<(), JsValue> {
+        self.demo(|demo| demo.picture.ask_radiance = true)
+    }
+
+    /// The radiance that was asked for: three numbers for each pixel. Empty while it has not come.
+    pub fn radiance(&self) -> Result<Vec<f32>, JsValue> {
+        self.demo(|demo| demo.picture.take_radiance())
+    }
+
+    /// What the user is told.
+    pub fn messages(&self) -> Result<String, JsValue> {
+        self.demo(|demo| demo.messages())
+    }
+
+    fn demo<T>(&self, act: impl FnOnce(&mut Demo) -> T) -> Result<T, JsValue> {
+        let mut demo = self.runner.app_mut::<Demo>().ok_or("the demo has stopped")?;
+        Ok(act(&mut demo))
+    }
+}
