@@ -75,6 +75,7 @@ pub const FILTER: &[Setting] = &[
     switch!(filter.local_linear_fit),
     number!(filter.ridge, 1e-3..=100.0, true),
     whole!(filter.iterations, 0..=8),
+    number!(filter.converged, 0.0..=1.0, false),
     number!(filter.sigma_luminance, 0.0..=32.0, false),
     number!(filter.sigma_depth, 1e-4..=10.0, true),
     number!(filter.sigma_normal, 0.0..=256.0, false),
