@@ -9,7 +9,7 @@ use std::time::Duration;
 fn counting(gradient: Gradient) -> Denoiser {
     let filter = FilterSettings { gradient, ..Default::default() };
     let settings = Settings { filter, ..Settings::adaptive() };
-    let descriptor = DenoiserDescriptor { size: SIZE, settings, diagnostics: true, ..Default::default() };
+    let descriptor = DenoiserDescriptor { size: SIZE, settings, diagnostics: true, views: true, ..Default::default() };
     Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap()
 }
 

@@ -28,7 +28,7 @@ impl Stage {
     }
 
     fn of_size(size: [u32; 2]) -> Self {
-        let descriptor = DenoiserDescriptor { size, settings: Settings::adaptive(), ..Default::default() };
+        let descriptor = DenoiserDescriptor { size, settings: Settings::adaptive(), views: true, ..Default::default() };
         Self {
             renderer: Renderer::new(&gpu().device, size),
             denoiser: Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap(),
