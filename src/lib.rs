@@ -84,13 +84,13 @@ pub mod plan;
 #[cfg(feature = "path-tracer")]
 pub mod scene;
 mod settings;
+#[cfg(feature = "path-tracer")]
+mod traced;
 #[cfg(all(test, feature = "path-tracer"))]
 mod twins;
 mod view;
 
 pub use camera::{Camera, Matrices, Viewpoint};
-#[cfg(feature = "path-tracer")]
-pub use denoiser::Frame;
 pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements, Specialize};
 pub use error::Error;
 pub use gpu::counts::InputCounts;
@@ -100,6 +100,8 @@ pub use host::{Lambda, Pairs, Reshade, Shading, Surfaces};
 pub use passes::Pass;
 pub use plan::Changes;
 pub use settings::*;
+#[cfg(feature = "path-tracer")]
+pub use traced::Frame;
 pub use view::{View, ViewOptions};
 
 /// WGSL for a host's own shader, for [`Gradient::Reshade`]: `asvgf_surface(frame, guide, repeats, pixel)` returns an

@@ -1,6 +1,6 @@
 //! The textures behind a plan's images.
 
-use crate::plan::{Image, Kind, Memory, Plan, Slot};
+use crate::plan::{Image, Kind, Memory, Plan, Slot, needed};
 use wgpu::{Device, Extent3d, TextureDescriptor, TextureDimension, TextureUsages, TextureView, TextureViewDescriptor};
 
 /// All textures of one denoiser.
@@ -33,15 +33,21 @@ impl Textures {
     }
 
     /// Makes what steps `from` to `to` of a plan use. The last of them end the frame: what is used for the last time is free for
-    /// others then, and what `most`, the plan if everything changes, needs of the last frame is left for the next.
-    pub fn place(&mut self, device: &Device, size: [u32; 2], plan: &Plan, (from, to): (usize, usize), most: &Plan) {
-        let needed = most.needed();
+    /// others then, and what of `images`, those of the plan if everything changes, the next frame needs is left for it.
+    pub fn place(
+        &mut self,
+        device: &Device,
+        size: [u32; 2],
+        plan: &Plan,
+        (from, to): (usize, usize),
+        images: Vec<(Image, bool)>,
+    ) {
+        let needed = needed(&images);
         let last = to == plan.steps.len();
         let over = |i: usize, slot: Slot| last && plan.is_over(from + i, slot, &needed, self.keep);
         self.memory.place(&plan.steps[from..to], over);
         if last {
             self.memory.end(needed);
-            let images = most.images();
             if images != self.images {
                 self.memory.shrink();
                 self.images = images;
@@ -51,14 +57,8 @@ impl Textures {
         self.views.resize(kinds.len(), None);
         for (number, (view, kind)) in self.views.iter_mut().zip(kinds).enumerate() {
             match kind {
-                Some(kind)
-                    if view
-                        .as_ref()
-                        .is_none_or(|v| v.texture().format() != kind.format || texels(v) != kind.extent(size)) =>
-                {
-                    *view = Some(create(device, size, *kind, number));
-                }
-                Some(_) => {}
+                Some(kind) if view.as_ref().is_some_and(|view| suits(view, *kind, size)) => {}
+                Some(kind) => *view = Some(create(device, size, *kind, number)),
                 None => *view = None,
             }
         }
@@ -91,8 +91,9 @@ impl Textures {
     }
 }
 
-fn texels(view: &TextureView) -> [u32; 2] {
-    [view.texture().width(), view.texture().height()]
+fn suits(view: &TextureView, kind: Kind, size: [u32; 2]) -> bool {
+    let texture = view.texture();
+    texture.format() == kind.format && [texture.width(), texture.height()] == kind.extent(size)
 }
 
 fn create(device: &Device, size: [u32; 2], kind: Kind, number: usize) -> TextureView {

@@ -110,7 +110,7 @@ impl Denoiser {
         self.abandon();
         self.history = history;
         self.textures.begin();
-        self.textures.place(device, self.size, &plan, (0, steps.len()), &most);
+        self.textures.place(device, self.size, &plan, (0, steps.len()), most.images());
         let uniform = self.frame_uniform(device, &moment);
         let counts = self.counters.as_ref().map(|_| Counters::begin(device));
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
@@ -159,14 +159,14 @@ impl Denoiser {
         let (mut traits, changes) = (begun.traits, begun.changes);
         views::shading(&mut traits, shading, self.size, (&self.settings, changes))?;
         let plan = self.adapt(Plan::hosted(&traits, &self.settings, changes, format));
-        let most = self.adapt(Plan::hosted(&traits, &self.settings, Changes::ANY, format));
+        let images = Plan::hosted(&traits, &self.settings, Changes::ANY, format).images();
         let steps = &plan.steps[plan.surface_steps()..];
         self.compile(steps, Traversal::default())?;
         let Some(Begun { mut moment, mut uniform, counts, mut queries, .. }) = self.begun.take() else {
             return Err(Error::NotBegun);
         };
         let lost = !self.textures.has_all_before(&plan);
-        self.textures.place(device, self.size, &plan, (plan.surface_steps(), plan.steps.len()), &most);
+        self.textures.place(device, self.size, &plan, (plan.surface_steps(), plan.steps.len()), images);
         let block = shading.lambda.as_ref().map_or(1, |l: &Lambda<'_>| l.block);
         if (lost && moment.continued) || block != 1 {
             // An image of the last frame that is new now (an albedo, say) has nothing to compare with.
@@ -186,15 +186,7 @@ impl Denoiser {
         }
         self.history = true;
         let Moment { camera, index, .. } = moment;
-        self.last = Some(LastFrame {
-            plan,
-            uniform,
-            camera,
-            source: Source::Host,
-            index,
-            #[cfg(feature = "path-tracer")]
-            tracer: self.settings.tracer.clone(),
-        });
+        self.last = Some(LastFrame { plan, uniform, camera, source: Source::Host, index });
         Ok(())
     }
 

@@ -172,6 +172,11 @@ fn slots(steps: &[Step]) -> impl Iterator<Item = Slot> {
     steps.iter().flat_map(|step| &step.bindings).map(|(_, slot)| *slot)
 }
 
+/// Those of a plan's images of which the next frame needs this one's.
+pub(crate) fn needed(images: &[(Image, bool)]) -> BTreeSet<Image> {
+    images.iter().filter(|(_, before)| *before).map(|(image, _)| *image).collect()
+}
+
 impl Plan {
     /// Bytes of the textures that frames of this plan take turns in, for a picture of this size. With `views`, as
     /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
@@ -181,7 +186,7 @@ impl Plan {
 
     /// What those textures can hold.
     fn textures(&self, views: bool) -> Vec<Kind> {
-        let (mut memory, needed) = (Memory::default(), self.needed());
+        let (mut memory, needed) = (Memory::default(), needed(&self.images()));
         // The first frame has no last one; from the second on all are alike.
         for _ in 0..2 {
             memory.begin();
@@ -189,11 +194,6 @@ impl Plan {
             memory.end(needed.clone());
         }
         memory.textures().iter().copied().flatten().collect()
-    }
-
-    /// The images of which the next frame needs this one's.
-    pub(crate) fn needed(&self) -> BTreeSet<Image> {
-        self.images().into_iter().filter(|(_, before)| *before).map(|(image, _)| image).collect()
     }
 
     /// Whether a slot is used for the last time in the step of this number. With `views`, this frame's images are all kept until
@@ -248,13 +248,13 @@ mod tests {
             let continued = memory.has_all_before(&most.steps);
             assert_eq!(
                 continued,
-                number > 0 || most.needed().is_empty(),
+                number > 0 || needed(&most.images()).is_empty(),
                 "frame {number} finds what the last one left"
             );
             let before = written.clone();
             memory.begin();
-            memory.place(&plan.steps, |step, slot| plan.is_over(step, slot, &most.needed(), views));
-            memory.end(most.needed());
+            memory.place(&plan.steps, |step, slot| plan.is_over(step, slot, &needed(&most.images()), views));
+            memory.end(needed(&most.images()));
             for step in &plan.steps {
                 let (outputs, inputs): (Vec<_>, Vec<_>) =
                     step.bindings.iter().partition(|(name, _)| name.ends_with("_out"));

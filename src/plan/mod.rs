@@ -18,7 +18,7 @@ pub use changes::Changes;
 pub use decision::Decision;
 pub use feature::{Feature, Features};
 pub use image::{Grid, Image};
-pub(crate) use memory::{Kind, Memory};
+pub(crate) use memory::{Kind, Memory, needed};
 pub use traits::{HostTraits, Traits, Traversal};
 
 use crate::passes::{self, Pass};

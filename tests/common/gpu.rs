@@ -64,16 +64,7 @@ impl Gpu {
 
     /// A texture with these usages.
     pub fn texture(&self, size: [u32; 2], format: TextureFormat, usage: TextureUsages) -> Texture {
-        self.device.create_texture(&TextureDescriptor {
-            label: Some("test"),
-            size: Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: TextureDimension::D2,
-            format,
-            usage,
-            view_formats: &[],
-        })
+        texture(&self.device, size, format, usage)
     }
 
     /// A texture that a shader writes and [`Gpu::read`] reads.
@@ -114,4 +105,18 @@ impl Gpu {
         let poll = PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
         self.device.poll(poll).expect("the GPU answers in time");
     }
+}
+
+/// A texture of any device, with these usages.
+pub fn texture(device: &Device, size: [u32; 2], format: TextureFormat, usage: TextureUsages) -> Texture {
+    device.create_texture(&TextureDescriptor {
+        label: Some("test"),
+        size: Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
 }

@@ -2,14 +2,14 @@
 //! `refusals.rs`.
 
 use super::{Breaks, Case, Named, Worst};
+use crate::common::gpu::texture;
 use asvgf::scene::{GpuScene, builtin};
 use asvgf::{Camera, Denoiser, DenoiserDescriptor, Error, Frame, Settings, Shading, Surfaces, View, ViewOptions};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::{
-    Device, DeviceDescriptor, Extent3d, Instance, InstanceDescriptor, Limits, Queue, TextureDescriptor,
-    TextureDimension, TextureFormat, TextureUsages, TextureView,
+    Device, DeviceDescriptor, Instance, InstanceDescriptor, Limits, Queue, TextureFormat, TextureUsages, TextureView,
 };
 
 pub const CASES: &[Case] = &[
@@ -64,17 +64,7 @@ fn idle(limits: Limits) -> (Device, Queue, Arc<AtomicU32>) {
 }
 
 fn view(device: &Device, size: [u32; 2], format: TextureFormat, usage: TextureUsages) -> TextureView {
-    let texture = device.create_texture(&TextureDescriptor {
-        label: None,
-        size: Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: TextureDimension::D2,
-        format,
-        usage,
-        view_formats: &[],
-    });
-    texture.create_view(&Default::default())
+    texture(device, size, format, usage).create_view(&Default::default())
 }
 
 /// A host's views of one size.

@@ -1,0 +1,130 @@
+//! Frames of a path-traced scene.
+
+use crate::Error;
+use crate::camera::Camera;
+use crate::denoiser::{Denoiser, LastFrame, Resources, Source, Specialize};
+use crate::gpu::frame::Moment;
+use crate::passes::Pass;
+use crate::plan::{Changes, Feature, Plan, Traits};
+use crate::scene::GpuScene;
+use crate::settings::{Gradient, Mode};
+use wgpu::{CommandEncoder, Device, TextureFormat, TextureView};
+
+/// One frame of a path-traced scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    /// What to trace, moved to this frame's pose by [`GpuScene::update`].
+    pub scene: &'a GpuScene,
+    /// From where.
+    pub camera: Camera,
+    /// Number of the frame. With the pixel it decides all random numbers. It should grow by one per frame: paths can only be
+    /// repeated from the frame before, so any other step starts a new history.
+    pub index: u32,
+    /// Where linear radiance goes: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
+    pub target: &'a TextureView,
+}
+
+impl Denoiser {
+    /// Compiles ahead what frames of a scene may need with the settings in force, whatever changes from one to the next, so that
+    /// none of them has to wait. `target` is the format of [`Frame::target`]. May take seconds.
+    ///
+    /// # Errors
+    /// [`Error::Shader`], which is a defect of this crate.
+    pub fn prepare(&self, scene: &GpuScene, target: TextureFormat) -> Result<(), Error> {
+        let traits = self.traits(scene);
+        self.every_change().iter().try_for_each(|&changes| {
+            let changes = self.changes_of_scene(Some(changes));
+            let plan = self.adapt(Plan::path_traced(&traits, &self.settings, changes, target));
+            self.compile(&plan.steps, scene.traversal(&traits))
+        })
+    }
+
+    /// Records one frame: traces the scene, filters, and writes linear radiance into the target.
+    ///
+    /// # Errors
+    /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
+    pub fn render(&mut self, device: &Device, encoder: &mut CommandEncoder, frame: &Frame<'_>) -> Result<(), Error> {
+        // No debug group around the frame, only a label on each pass: in debug builds, Mesa 22.3's drivers crash at the
+        // second group of an encoder (gfx-rs/wgpu#3377), and an encoder may hold many frames.
+        self.render_stepwise(device, encoder, frame, |_, _| {})
+    }
+
+    /// As [`Denoiser::render`], and calls the host after each pass has been recorded: it may put another encoder in the place
+    /// of this one and submit what was recorded so far. That is how to time passes on an adapter without (honest) timestamps.
+    ///
+    /// # Errors
+    /// As [`Denoiser::render`].
+    pub fn render_stepwise(
+        &mut self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        frame: &Frame<'_>,
+        mut after: impl FnMut(Pass, &mut CommandEncoder),
+    ) -> Result<(), Error> {
+        let &Frame { scene, index, target, .. } = frame;
+        let asked = self.settings.filter.gradient;
+        if self.settings.mode == Mode::Denoise && matches!(asked, Gradient::Pairs | Gradient::Lambda) {
+            let reason = "comes from a host's renderer: choose Reshade, BlinnPhong or Off for a scene";
+            return Err(Error::GradientSource { asked, reason });
+        }
+        let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
+        let camera = frame.camera.uniform(self.size)?;
+        let traits = self.traits(scene);
+        let most = self.adapt(Plan::path_traced(&traits, &self.settings, Changes::ANY, format));
+        let version = scene.version();
+        let last = self.last.as_ref();
+        let same_scene = |l: &LastFrame| matches!(&l.source, Source::Scene([scene, _], _) if *scene == version[0]);
+        let mut continued = self.history && self.textures.has_all_before(&most) && last.is_some_and(same_scene);
+        let same_pose =
+            |l: &LastFrame| matches!(&l.source, Source::Scene(last, _) if *last == version) && !scene.moved();
+        if self.settings.mode == Mode::Reference {
+            // A mean over frames is only one of frames that are alike.
+            continued &= last.is_some_and(|l| same_pose(l) && l.camera == camera);
+        }
+        if most.features.has(Feature::Reshade) {
+            // The scene knows the placements of the last frame only, and the paths to repeat are that frame's.
+            continued &= last.is_some_and(|l| l.index.wrapping_add(1) == index);
+        }
+        let last = last.filter(|_| continued);
+        let same_paths = |l: &LastFrame| matches!(&l.source, Source::Scene(_, last) if *last == self.settings.tracer);
+        let known = last.map(|l| Changes { camera: l.camera != camera, scene: !(same_pose(l) && same_paths(l)) });
+        let images = most.images();
+        let plan = match self.changes_of_scene(known) {
+            Changes::ANY => most,
+            changes => self.adapt(Plan::path_traced(&traits, &self.settings, changes, format)),
+        };
+        let traversal = scene.traversal(&traits);
+        self.compile(&plan.steps, traversal)?;
+        let previous = last.map_or(camera, |l| l.camera);
+        let moment = Moment { camera, previous, index, continued, lambda_block: 1, converges: plan.converges() };
+        let uniform = self.frame_uniform(device, &moment);
+        self.abandon();
+        self.textures.begin();
+        self.textures.place(device, self.size, &plan, (0, plan.steps.len()), images);
+        let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
+        let given = |name: &str| scene.resource(name);
+        let resources = Resources { traversal, target: Some(target), ..Resources::new(&given, &uniform) };
+        self.record(device, encoder, &plan.steps, &resources, &mut queries, &mut after)?;
+        if let (Some(timing), Some(queries)) = (&self.timing, queries) {
+            timing.end(device, encoder, queries);
+        }
+        self.history = true;
+        let source = Source::Scene(version, self.settings.tracer.clone());
+        self.last = Some(LastFrame { plan, uniform, camera, source, index });
+        Ok(())
+    }
+
+    /// What the shaders are to be able to do.
+    fn traits(&self, scene: &GpuScene) -> Traits {
+        match self.specialize {
+            Specialize::Exactly => scene.traits(),
+            Specialize::Everything => scene.traits().everything(),
+        }
+    }
+
+    /// As [`Denoiser::changes`]. lavapipe keeps so much compiled code and no more: with a second `trace` for frames in which the camera
+    /// alone moves, it would compile one of the two in each frame, so there a camera that moves counts as any change.
+    fn changes_of_scene(&self, known: Option<Changes>) -> Changes {
+        self.changes(known.filter(|changes| !(self.on_cpu && changes.camera)))
+    }
+}
