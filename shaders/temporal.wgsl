@@ -6,9 +6,9 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #ifdef STILL
-#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal, pack_length_lambda, unpack_length}
+#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal}
 #else
-#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_motion, unpack_normal, pack_length_lambda, unpack_length}
+#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_motion, unpack_normal}
 #import asvgf::reproject::{Origin, origin_of, same_surface}
 #endif
 #ifdef EXTERNAL_LAMBDA

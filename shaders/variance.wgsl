@@ -3,7 +3,8 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{unpack_rgb, unpack_normal, unpack_length, pack_tap}
+#import asvgf::packing::{unpack_rgb, unpack_normal, pack_tap}
+#import asvgf::history::unpack_length
 #import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var guide: texture_2d<u32>;

@@ -2,7 +2,8 @@
 
 #import asvgf::frame::{frame, inside, project, sample_point, world_position}
 #import asvgf::color::{is_finite, luminance}
-#import asvgf::packing::{unpack_rgb, filtered_color, unpack_motion, unpack_normal, unpack_length, unpack_lambda}
+#import asvgf::packing::{unpack_rgb, filtered_color, unpack_motion, unpack_normal}
+#import asvgf::history::{unpack_length, unpack_lambda}
 #import asvgf::random::hash
 #if VIEW >= 17
 #if VIEW <= 18

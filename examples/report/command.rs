@@ -1,6 +1,7 @@
 //! The command line of `report`.
 
 use crate::arguments::{Usage, Value};
+use crate::methods::Method;
 use crate::suite::Suite;
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
@@ -18,6 +19,8 @@ With `--features flip` (which needs a C++ compiler) FLIP and its maps are in it 
                         software adapter; full: everything                      [quick]
   --scene SCENE         only this scene: cornell, pillars, textured, or a .gltf, .glb or
                         .obj file with its first animation          [the suite's scenes]
+  --methods NAMES       only these, separated by commas, as in 1 spp,a-svgf
+                                                                     [the suite's methods]
   --size WxH            pixels                          [quick 96x54, full 640x360]
   --paths N             paths per pixel of the references      [quick 256, full 8192]
   --repeats N           how often times are taken, after once for the errors; with 0, in
@@ -66,12 +69,12 @@ pub struct Baseline {
 }
 
 /// The options that have a value.
-const VALUED: [&str; 8] = ["suite", "scene", "size", "paths", "repeats", "budget", "out", "baseline"];
+const VALUED: [&str; 9] = ["suite", "scene", "methods", "size", "paths", "repeats", "budget", "out", "baseline"];
 
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let mut suite = Suite::quick();
-    let (mut scene, mut size, mut paths, mut repeats) = (None, None, None, None);
+    let (mut scene, mut methods, mut size, mut paths, mut repeats) = (None, None, None, None, None);
     let (mut export, mut growth) = (false, false);
     let (mut budget, mut out, mut baselines) = (None, PathBuf::from("target/report"), Vec::new());
     let mut parser = lexopt::Parser::from_args(arguments);
@@ -97,6 +100,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         match value.option.as_str() {
             "suite" => suite = value.one_of(&[("quick", Suite::quick as fn() -> Suite), ("full", Suite::full)])?(),
             "scene" => scene = Some(value.text),
+            "methods" => methods = Some(value),
             "size" => size = Some(pixels(&value)?),
             "paths" => paths = Some(value.whole(1..=1_000_000)?),
             "repeats" => repeats = Some(value.whole(0..=1000)?),
@@ -107,10 +111,23 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     if let Some(scene) = scene {
         suite.only(&scene);
     }
+    if let Some(names) = methods {
+        suite.methods = chosen(&suite.methods, &names)?;
+    }
     suite.size = size.unwrap_or(suite.size);
     suite.paths = paths.unwrap_or(suite.paths);
     suite.repeats = repeats.unwrap_or(suite.repeats);
     Ok(Request::Report(Command { suite, budget, out, baselines, export, growth }))
+}
+
+/// Methods by their names.
+fn chosen(methods: &[Method], names: &Value) -> Result<Vec<Method>, Usage> {
+    let find = |name: &str| methods.iter().find(|method| method.name == name.trim()).cloned();
+    let unknown = || {
+        let known: Vec<_> = methods.iter().map(|method| method.name.as_str()).collect();
+        names.wrong(&format!("must be of the suite's: {}", known.join(", ")))
+    };
+    names.text.split(',').map(|name| find(name).ok_or_else(unknown)).collect()
 }
 
 fn pixels(value: &Value) -> Result<[u32; 2], Usage> {

@@ -4,7 +4,7 @@ use std::fmt::{self, Debug, Write};
 use std::path::Path;
 
 /// FNV-1a (Fowler, Noll, Vo), 64 bits: the same on every machine and with every compiler, unlike the standard library's.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub struct Hash(u64);
 
 impl Hash {
@@ -19,6 +19,21 @@ impl Hash {
             self.file(&root().join(path))?;
         }
         Ok(self)
+    }
+
+    /// Of a shader of this repository and all that it imports, in whatever permutation.
+    pub fn of_shader(path: &str) -> std::io::Result<Self> {
+        let mut files = vec![path.to_owned()];
+        for next in 0.. {
+            let Some(path) = files.get(next) else { break };
+            for module in imports(&std::fs::read_to_string(root().join(path))?) {
+                let file = format!("shaders/shared/{module}.wgsl");
+                if !files.contains(&file) {
+                    files.push(file);
+                }
+            }
+        }
+        Self::of(&files.iter().map(String::as_str).collect::<Vec<_>>())
     }
 
     /// Of this, and then of what its debug output shows.
@@ -57,6 +72,12 @@ impl fmt::Display for Hash {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:016x}", self.0)
     }
+}
+
+/// The modules that a shader names in its imports.
+fn imports(source: &str) -> impl Iterator<Item = &str> {
+    let named = source.lines().filter_map(|line| line.trim().strip_prefix("#import asvgf::"));
+    named.map(|rest| rest.split("::").next().unwrap_or(rest))
 }
 
 /// This repository: where the program was built or, if it was carried to another machine, the current folder.

@@ -12,8 +12,23 @@ use std::path::{Path, PathBuf};
 /// Where references are kept between reports.
 const FOLDER: &str = "target/references";
 
-/// The code that decides what converges: a filter may change without it.
-const TRACER: [&str; 4] = ["shaders/shared", "shaders/visibility.wgsl", "shaders/trace.wgsl", "src/scene"];
+/// The shaders that decide what converges: a filter may change without them.
+const TRACERS: [&str; 2] = ["shaders/visibility.wgsl", "shaders/trace.wgsl"];
+
+/// What hands them the scene. What reads scenes from files is not there: its outcome is hashed.
+const SCENE: [&str; 11] = [
+    "src/scene/alias.rs",
+    "src/scene/bvh.rs",
+    "src/scene/environment.rs",
+    "src/scene/facets.rs",
+    "src/scene/folded.rs",
+    "src/scene/geometry.rs",
+    "src/scene/instances.rs",
+    "src/scene/lights.rs",
+    "src/scene/materials.rs",
+    "src/scene/texels.rs",
+    "src/scene/upload.rs",
+];
 
 pub struct Script {
     pub stage: Stage,
@@ -26,7 +41,9 @@ impl Script {
         let Sequence { source, animation, .. } = sequence.clone();
         let stage = Stage::load(&Shown { source, animation, size: suite.size, ..Default::default() })?;
         let tracer = Settings::adaptive().tracer;
-        let hash = Hash::of(&TRACER)?.and(&stage.scene).and(&tracer).and(&suite.size).and(&suite.paths);
+        let shaders = TRACERS.map(Hash::of_shader).into_iter().collect::<std::io::Result<Vec<_>>>()?;
+        let code = Hash::of(&SCENE)?.and(&shaders);
+        let hash = code.and(&stage.scene).and(&tracer).and(&suite.size).and(&suite.paths);
         Ok(Self { stage, hash })
     }
 

@@ -11,6 +11,7 @@ use wgpu::naga::Module;
 const SHARED: &[(&str, &str)] = &[
     ("color", include_str!("../../shaders/shared/color.wgsl")),
     ("packing", include_str!("../../shaders/shared/packing.wgsl")),
+    ("history", include_str!("../../shaders/shared/history.wgsl")),
     ("random", include_str!("../../shaders/shared/random.wgsl")),
     ("frame", include_str!("../../shaders/shared/frame.wgsl")),
     ("counts", include_str!("../../shaders/shared/counts.wgsl")),

@@ -1,6 +1,7 @@
 // Numbers through every format and back, for the test of the formats.
 
-#import asvgf::packing::{pack_rgb, unpack_rgb, pack_unsigned, unpack_unsigned, pack_motion, unpack_motion, pack_normal, unpack_normal, pack_length_lambda, unpack_length, unpack_lambda, unpack_octahedral, round_to_f16}
+#import asvgf::packing::{pack_rgb, unpack_rgb, pack_unsigned, unpack_unsigned, pack_motion, unpack_motion, pack_normal, unpack_normal, unpack_octahedral, round_to_f16}
+#import asvgf::history::{pack_length_lambda, unpack_length, unpack_lambda}
 
 // (colour, history length), (unit vector, λ), (motion, depth, octahedral bits)
 @group(0) @binding(0) var<storage, read> numbers: array<vec4<f32>>;
