@@ -5,6 +5,7 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
+#import asvgf::history::{pack_length_lambda, unpack_length}
 #ifdef STILL
 #import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal}
 #else

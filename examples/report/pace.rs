@@ -60,7 +60,7 @@ fn scored(suite: &Suite, image: Vec<Rgb>) -> Result<f64, Box<dyn Error>> {
         let (pose, camera) = script.frame(index);
         let steady = (0..pixels).map(Some).collect();
         let (counted, ages) = (vec![true; pixels], vec![u32::MAX; pixels]);
-        Moment { index, pose, camera, reference: image.clone(), counted, steady, ages }
+        Moment { index, pose, camera, reference: image.clone(), half: image.clone(), counted, steady, ages }
     };
     let frames = FRAMES as usize;
     let moments: Vec<Moment> = (0..frames).map(|_| moment()).collect();

@@ -42,10 +42,14 @@ fn fill_one(
 ) -> Result<(), MetricError> {
     let moment = &moments[i];
     let pair = Pair::new(&images[i], &moment.reference)?.counting(&moment.counted)?;
-    row.rel_mse = finite(metrics::relative_mse(&pair));
-    row.rmse = finite(metrics::rmse(&pair));
+    // Squares of the difference from the reference are those from the truth and the reference's own, as their noise is
+    // independent.
+    let noise = Pair::new(&moment.half, &moment.reference)?.counting(&moment.counted)?;
+    row.rel_mse = finite(metrics::relative_mse(&pair) - metrics::relative_mse(&noise));
+    row.rmse = finite((metrics::rmse(&pair).powi(2) - metrics::rmse(&noise).powi(2)).max(0.0).sqrt());
     row.bias = finite(metrics::bias(&pair));
-    row.ghost = finite(metrics::ghost_energy(&pair, &moment.ages, GHOST)?);
+    let ghost = |pair| metrics::ghost_energy(pair, &moment.ages, GHOST);
+    row.ghost = finite(ghost(&pair)? - ghost(&noise)?);
     if i > 0 {
         let before = Pair::new(&images[i - 1], &moments[i - 1].reference)?.counting(&moments[i - 1].counted)?;
         row.flicker = finite(metrics::flicker(&pair, &before, &moment.steady)?);

@@ -7,7 +7,7 @@ use crate::hash::Hash;
 use crate::script::Script;
 use crate::suite::{Sequence, Suite};
 use crate::tracing::{self, Reference};
-use asvgf::image_io::{read_exr, write_exr_rgb};
+use asvgf::image_io::{Channels, ImageError, read_exr, write_exr, write_exr_rgb};
 use asvgf::scene::{GpuScene, Pose};
 use asvgf::{Camera, Settings, View, metrics};
 use std::error::Error;
@@ -27,6 +27,9 @@ pub struct Moment {
     pub pose: Pose,
     pub camera: Camera,
     pub reference: Vec<Rgb>,
+    /// The mean of the first half of the reference's paths. That is as far from the reference as this is from the truth, to the
+    /// square and on average: a half's variance is twice the whole's, and they differ by half of the halves' difference.
+    pub half: Vec<Rgb>,
     /// Neither an emitter nor a miss: those bypass every filter.
     pub counted: Vec<bool>,
     /// Where still surfaces with the same light were in the last frame.
@@ -65,16 +68,14 @@ impl Truth {
             move_to(gpu, &mut scene, &pose)?;
             tracing::render(&mut film, &scene, camera, index)?;
             let path = script.reference(&pose, &camera);
-            let converged = match read_colors(&path, suite.size) {
-                Ok(colors) => colors,
+            let [converged, half] = match read_layers(&path, suite.size, ["", "half."]) {
+                Ok(layers) => layers,
                 // It is not there, or cannot be used.
                 Err(_) => {
-                    // Frames share their random numbers: what is traced depends on nothing that was traced before.
-                    reference.rewind();
-                    let colors = reference.converge(&scene, camera, suite.paths, |_| {})?;
+                    let halves = converge(&mut reference, &scene, camera, suite.paths)?;
                     path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-                    write_exr_rgb(&path, suite.size[0], suite.size[1], &colors)?;
-                    colors
+                    write_layers(&path, suite.size, ["", "half."], &halves)?;
+                    halves
                 }
             };
             if let Some(folder) = export {
@@ -83,7 +84,7 @@ impl Truth {
                 write_exr_rgb(path, suite.size[0], suite.size[1], &converged)?;
             }
             let last = moments.last().zip(seen.as_ref());
-            let (moment, now) = observe(&mut film, Moment::new(index, pose, camera, converged), last)?;
+            let (moment, now) = observe(&mut film, Moment::new(index, pose, camera, [converged, half]), last)?;
             moments.push(moment);
             seen = Some(now);
             done(1);
@@ -97,9 +98,24 @@ impl Truth {
 }
 
 impl Moment {
-    fn new(index: u32, pose: Pose, camera: Camera, reference: Vec<Rgb>) -> Self {
-        Self { index, pose, camera, reference, counted: Vec::new(), steady: Vec::new(), ages: Vec::new() }
+    fn new(index: u32, pose: Pose, camera: Camera, [reference, half]: [Vec<Rgb>; 2]) -> Self {
+        Self { index, pose, camera, reference, half, counted: Vec::new(), steady: Vec::new(), ages: Vec::new() }
     }
+}
+
+/// Traces a reference: the mean of all paths, and that of their first half.
+fn converge(
+    reference: &mut Reference<'_>,
+    scene: &GpuScene,
+    camera: Camera,
+    paths: u32,
+) -> Result<[Vec<Rgb>; 2], asvgf::Error> {
+    // Frames share their random numbers: what is traced depends on nothing that was traced before.
+    reference.rewind();
+    let mut half = || reference.converge(scene, camera, paths.div_ceil(2), |_| {});
+    let (first, second) = (half()?, half()?);
+    let mean = first.iter().zip(&second).map(|(a, b)| std::array::from_fn(|c| 0.5 * (a[c] + b[c])));
+    Ok([mean.collect(), first])
 }
 
 /// Puts everything where it is in a frame.
@@ -165,11 +181,40 @@ pub fn optional(film: &mut Film<'_>, view: View) -> Result<Option<Vec<Rgb>>, asv
 
 /// R, G and B of a file.
 pub fn read_colors(path: &Path, size: [u32; 2]) -> Result<Vec<Rgb>, Box<dyn Error>> {
+    read_layers(path, size, [""]).map(|[colors]| colors)
+}
+
+/// R, G and B of a file's layers.
+fn read_layers<const N: usize>(path: &Path, size: [u32; 2], names: [&str; N]) -> Result<[Vec<Rgb>; N], Box<dyn Error>> {
     let image = read_exr(path)?;
     if [image.width, image.height] != size {
         return Err(format!("{}: is {}×{} pixels", path.display(), image.width, image.height).into());
     }
-    let channel = |name: &str| image.get(name).ok_or_else(|| format!("{}: has no channel {name}", path.display()));
-    let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
-    Ok((0..r.len()).map(|i| [r[i], g[i], b[i]]).collect())
+    let mut layers = [const { Vec::new() }; N];
+    for (layer, name) in layers.iter_mut().zip(names) {
+        let channel = |color| {
+            let name = format!("{name}{color}");
+            image.get(&name).ok_or_else(|| format!("{}: has no channel {name}", path.display()))
+        };
+        let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
+        *layer = (0..r.len()).map(|i| [r[i], g[i], b[i]]).collect();
+    }
+    Ok(layers)
+}
+
+/// Writes them.
+fn write_layers<const N: usize>(
+    path: &Path,
+    [width, height]: [u32; 2],
+    names: [&str; N],
+    layers: &[Vec<Rgb>; N],
+) -> Result<(), ImageError> {
+    let layers = names.into_iter().zip(layers);
+    let channels = layers.flat_map(|(name, layer)| {
+        ["R", "G", "B"].into_iter().enumerate().map(move |(c, color)| {
+            let values = layer.iter().map(|pixel| pixel[c]).collect();
+            (format!("{name}{color}"), values)
+        })
+    });
+    write_exr(path, &Channels { width, height, channels: channels.collect() })
 }
