@@ -125,7 +125,7 @@ fn chosen(methods: &[Method], names: &Value) -> Result<Vec<Method>, Usage> {
     let find = |name: &str| methods.iter().find(|method| method.name == name.trim()).cloned();
     let unknown = || {
         let known: Vec<_> = methods.iter().map(|method| method.name.as_str()).collect();
-        names.wrong(&format!("must be of the suite's: {}", known.join(", ")))
+        names.wrong(format!("must be of the suite's: {}", known.join(", ")))
     };
     names.text.split(',').map(|name| find(name).ok_or_else(unknown)).collect()
 }
