@@ -1,7 +1,6 @@
 //! The command line of `report`.
 
 use crate::arguments::{Usage, Value};
-use crate::methods::Method;
 use crate::suite::Suite;
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
@@ -19,6 +18,8 @@ With `--features flip` (which needs a C++ compiler) FLIP and its maps are in it 
                         software adapter; full: everything                      [quick]
   --scene SCENE         only this scene: cornell, pillars, textured, or a .gltf, .glb or
                         .obj file with its first animation          [the suite's scenes]
+  --animations NAMES    only these, separated by commas, as in static,blink
+                                                             [the suite's animations]
   --methods NAMES       only these, separated by commas, as in 1 spp,a-svgf
                                                                      [the suite's methods]
   --size WxH            pixels                          [quick 96x54, full 640x360]
@@ -69,12 +70,13 @@ pub struct Baseline {
 }
 
 /// The options that have a value.
-const VALUED: [&str; 9] = ["suite", "scene", "methods", "size", "paths", "repeats", "budget", "out", "baseline"];
+const VALUED: [&str; 10] =
+    ["suite", "scene", "animations", "methods", "size", "paths", "repeats", "budget", "out", "baseline"];
 
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let mut suite = Suite::quick();
-    let (mut scene, mut methods, mut size, mut paths, mut repeats) = (None, None, None, None, None);
+    let (mut scene, mut animations, mut methods, mut size, mut paths, mut repeats) = (None, None, None, None, None);
     let (mut export, mut growth) = (false, false);
     let (mut budget, mut out, mut baselines) = (None, PathBuf::from("target/report"), Vec::new());
     let mut parser = lexopt::Parser::from_args(arguments);
@@ -100,6 +102,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         match value.option.as_str() {
             "suite" => suite = value.one_of(&[("quick", Suite::quick as fn() -> Suite), ("full", Suite::full)])?(),
             "scene" => scene = Some(value.text),
+            "animations" => animations = Some(value),
             "methods" => methods = Some(value),
             "size" => size = Some(pixels(&value)?),
             "paths" => paths = Some(value.whole(1..=1_000_000)?),
@@ -111,8 +114,11 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     if let Some(scene) = scene {
         suite.only(&scene);
     }
+    if let Some(names) = animations {
+        suite.sequences = chosen(&suite.sequences, &names, |sequence| sequence.animation.as_deref().unwrap_or(""))?;
+    }
     if let Some(names) = methods {
-        suite.methods = chosen(&suite.methods, &names)?;
+        suite.methods = chosen(&suite.methods, &names, |method| &method.name)?;
     }
     suite.size = size.unwrap_or(suite.size);
     suite.paths = paths.unwrap_or(suite.paths);
@@ -120,14 +126,15 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     Ok(Request::Report(Command { suite, budget, out, baselines, export, growth }))
 }
 
-/// Methods by their names.
-fn chosen(methods: &[Method], names: &Value) -> Result<Vec<Method>, Usage> {
-    let find = |name: &str| methods.iter().find(|method| method.name == name.trim()).cloned();
-    let unknown = || {
-        let known: Vec<_> = methods.iter().map(|method| method.name.as_str()).collect();
-        names.wrong(format!("must be of the suite's: {}", known.join(", ")))
-    };
-    names.text.split(',').map(|name| find(name).ok_or_else(unknown)).collect()
+/// Those that are named, in their own order.
+fn chosen<T: Clone>(all: &[T], names: &Value, name: impl Fn(&T) -> &str) -> Result<Vec<T>, Usage> {
+    let wanted: Vec<_> = names.text.split(',').map(str::trim).collect();
+    if wanted.iter().any(|wanted| !all.iter().any(|one| name(one) == *wanted)) {
+        let mut known: Vec<_> = all.iter().map(&name).collect();
+        known.dedup();
+        return Err(names.wrong(format!("must be of {}", known.join(", "))));
+    }
+    Ok(all.iter().filter(|one| wanted.contains(&name(one))).cloned().collect())
 }
 
 fn pixels(value: &Value) -> Result<[u32; 2], Usage> {
