@@ -76,7 +76,8 @@ const VALUED: [&str; 10] =
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let mut suite = Suite::quick();
-    let (mut scene, mut animations, mut methods, mut size, mut paths, mut repeats) = (None, None, None, None, None);
+    let (mut scene, mut animations, mut methods) = (None, None, None);
+    let (mut size, mut paths, mut repeats) = (None, None, None);
     let (mut export, mut growth) = (false, false);
     let (mut budget, mut out, mut baselines) = (None, PathBuf::from("target/report"), Vec::new());
     let mut parser = lexopt::Parser::from_args(arguments);
