@@ -7,7 +7,7 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb, pack_tap, tap_color, tap_variance}
-#import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance}
+#import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance, foreshortening}
 
 @group(0) @binding(1) var<uniform> stride: i32;
 // Normal and depth; demodulated radiance and deviation of its luminance.
@@ -72,7 +72,8 @@ fn load(pixel: vec2<i32>, offset: vec2<i32>) -> Tap {
     return tap;
 }
 
-fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, kernel: f32) {
+// `slant` is the exponent of the foreshortening stop in the tap's direction.
+fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, kernel: f32, slant: f32) {
     let depth = tap.depth;
     let sample = tap_color(tap.color);
     let sample_variance = tap_variance(tap.color);
@@ -89,7 +90,7 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, ke
     // Squared difference less the noise that both ends are known to have: what is left is signal.
     let noise = c.variance + sample_variance;
     let excess = difference * difference - (c.variance + min(c.variance, sample_variance));
-    let exponent = plane_distance(c.plane, vec2<f32>(offset), depth) + frame.sigma_normal * (1.0 - cosine)
+    let exponent = slant + plane_distance(c.plane, vec2<f32>(offset), depth) + frame.sigma_normal * (1.0 - cosine)
         + max(excess, 0.0) / (frame.sigma_luminance * noise + 1e-37);
     let w = kernel * falloff(exponent);
 #endif
@@ -171,12 +172,30 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var plane = tangent_plane(vec2<f32>(pixel), normal, depth);
 #ifdef CLASSIC_STOPS
     let gradient = -depth * plane.slope.yz / select(plane.slope.x, -1e-4, abs(plane.slope.x) < 1e-4);
+    let slant = vec4(0.0);
+#ifdef FULL_KERNEL
+    let oblique = vec4(0.0);
+#endif
     let c = Center(
         plane, normal * (1.0 / 511.0), own_luminance,
         1.0 / (frame.sigma_luminance * sqrt(variance) + 1e-6 * own_luminance + 1e-37),
         gradient * f32(stride),
     );
 #else
+    let slant = frame.sigma_foreshortening * vec4(
+        foreshortening(plane, vec2<f32>(pixel), vec2(1.0, 0.0)),
+        foreshortening(plane, vec2<f32>(pixel), vec2(0.0, 1.0)),
+        foreshortening(plane, vec2<f32>(pixel), vec2(1.0, 1.0)),
+        foreshortening(plane, vec2<f32>(pixel), vec2(1.0, -1.0)),
+    );
+#ifdef FULL_KERNEL
+    let oblique = frame.sigma_foreshortening * vec4(
+        foreshortening(plane, vec2<f32>(pixel), vec2(2.0, 1.0)),
+        foreshortening(plane, vec2<f32>(pixel), vec2(2.0, -1.0)),
+        foreshortening(plane, vec2<f32>(pixel), vec2(1.0, 2.0)),
+        foreshortening(plane, vec2<f32>(pixel), vec2(1.0, -2.0)),
+    );
+#endif
     // Slopes per stride, in units of the tolerated distance.
     plane.slope *= vec3(1.0, vec2(f32(stride))) / (frame.sigma_depth * depth);
     let c = Center(plane, normal * (1.0 / 511.0), own_luminance, variance, vec2(0.0));
@@ -186,32 +205,32 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     sums.weight = 1.0;
     sums.variance = own_variance;
     // The B₃ spline (1, ⅔, ⅙)², relative to its centre.
-    add_tap(&sums, c, west, vec2(-1, 0), 2.0 / 3.0);
-    add_tap(&sums, c, east, vec2(1, 0), 2.0 / 3.0);
-    add_tap(&sums, c, north, vec2(0, -1), 2.0 / 3.0);
-    add_tap(&sums, c, south, vec2(0, 1), 2.0 / 3.0);
-    add_tap(&sums, c, north_west, vec2(-1, -1), 4.0 / 9.0);
-    add_tap(&sums, c, north_east, vec2(1, -1), 4.0 / 9.0);
-    add_tap(&sums, c, south_west, vec2(-1, 1), 4.0 / 9.0);
-    add_tap(&sums, c, south_east, vec2(1, 1), 4.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(-2, 0), 1.0 / 6.0);
-    add_far_tap(&sums, c, pixel, vec2(2, 0), 1.0 / 6.0);
-    add_far_tap(&sums, c, pixel, vec2(0, -2), 1.0 / 6.0);
-    add_far_tap(&sums, c, pixel, vec2(0, 2), 1.0 / 6.0);
+    add_tap(&sums, c, west, vec2(-1, 0), 2.0 / 3.0, slant.x);
+    add_tap(&sums, c, east, vec2(1, 0), 2.0 / 3.0, slant.x);
+    add_tap(&sums, c, north, vec2(0, -1), 2.0 / 3.0, slant.y);
+    add_tap(&sums, c, south, vec2(0, 1), 2.0 / 3.0, slant.y);
+    add_tap(&sums, c, north_west, vec2(-1, -1), 4.0 / 9.0, slant.z);
+    add_tap(&sums, c, north_east, vec2(1, -1), 4.0 / 9.0, slant.w);
+    add_tap(&sums, c, south_west, vec2(-1, 1), 4.0 / 9.0, slant.w);
+    add_tap(&sums, c, south_east, vec2(1, 1), 4.0 / 9.0, slant.z);
+    add_far_tap(&sums, c, pixel, vec2(-2, 0), 1.0 / 6.0, slant.x);
+    add_far_tap(&sums, c, pixel, vec2(2, 0), 1.0 / 6.0, slant.x);
+    add_far_tap(&sums, c, pixel, vec2(0, -2), 1.0 / 6.0, slant.y);
+    add_far_tap(&sums, c, pixel, vec2(0, 2), 1.0 / 6.0, slant.y);
 #ifdef FULL_KERNEL
     // The diamond of 13 taps above, completed to 5×5.
-    add_far_tap(&sums, c, pixel, vec2(-2, -1), 1.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(-2, 1), 1.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(2, -1), 1.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(2, 1), 1.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(-1, -2), 1.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(1, -2), 1.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(-1, 2), 1.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(1, 2), 1.0 / 9.0);
-    add_far_tap(&sums, c, pixel, vec2(-2, -2), 1.0 / 36.0);
-    add_far_tap(&sums, c, pixel, vec2(2, -2), 1.0 / 36.0);
-    add_far_tap(&sums, c, pixel, vec2(-2, 2), 1.0 / 36.0);
-    add_far_tap(&sums, c, pixel, vec2(2, 2), 1.0 / 36.0);
+    add_far_tap(&sums, c, pixel, vec2(-2, -1), 1.0 / 9.0, oblique.x);
+    add_far_tap(&sums, c, pixel, vec2(-2, 1), 1.0 / 9.0, oblique.y);
+    add_far_tap(&sums, c, pixel, vec2(2, -1), 1.0 / 9.0, oblique.y);
+    add_far_tap(&sums, c, pixel, vec2(2, 1), 1.0 / 9.0, oblique.x);
+    add_far_tap(&sums, c, pixel, vec2(-1, -2), 1.0 / 9.0, oblique.z);
+    add_far_tap(&sums, c, pixel, vec2(1, -2), 1.0 / 9.0, oblique.w);
+    add_far_tap(&sums, c, pixel, vec2(-1, 2), 1.0 / 9.0, oblique.w);
+    add_far_tap(&sums, c, pixel, vec2(1, 2), 1.0 / 9.0, oblique.z);
+    add_far_tap(&sums, c, pixel, vec2(-2, -2), 1.0 / 36.0, slant.z);
+    add_far_tap(&sums, c, pixel, vec2(2, -2), 1.0 / 36.0, slant.w);
+    add_far_tap(&sums, c, pixel, vec2(-2, 2), 1.0 / 36.0, slant.w);
+    add_far_tap(&sums, c, pixel, vec2(2, 2), 1.0 / 36.0, slant.z);
 #endif
 #ifdef LOCAL_LINEAR_FIT
     let filtered = fit(sums);
@@ -230,6 +249,6 @@ fn store(pixel: vec2<i32>, color: vec3<f32>, deviation: f32, seen: bool) {
 #endif
 }
 
-fn add_far_tap(sums: ptr<function, Sums>, c: Center, pixel: vec2<i32>, offset: vec2<i32>, kernel: f32) {
-    add_tap(sums, c, load(pixel, offset), offset, kernel);
+fn add_far_tap(sums: ptr<function, Sums>, c: Center, pixel: vec2<i32>, offset: vec2<i32>, kernel: f32, slant: f32) {
+    add_tap(sums, c, load(pixel, offset), offset, kernel, slant);
 }

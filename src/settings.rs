@@ -72,6 +72,7 @@ impl Settings {
         within("filter.sigma_luminance", f.sigma_luminance, 0.0, 1e6, "0…10⁶")?;
         within("filter.sigma_depth", f.sigma_depth, 1e-6, 1e6, "10⁻⁶…10⁶")?;
         within("filter.sigma_normal", f.sigma_normal, 0.0, 1e6, "0…10⁶")?;
+        within("filter.sigma_foreshortening", f.sigma_foreshortening, 0.0, 1e6, "0…10⁶")?;
         within("filter.ridge", f.ridge, 1e-6, 1e6, "10⁻⁶…10⁶")?;
         #[cfg(feature = "path-tracer")]
         {
@@ -156,6 +157,9 @@ pub struct FilterSettings {
     pub sigma_depth: f32,
     /// Normal stop: the exponent. Higher: sharper normal edges, noise stays on curved surfaces.
     pub sigma_normal: f32,
+    /// Foreshortening stop of the default stops: by how much taps weigh less that are farther away on the surface than on the image.
+    /// Higher: sharper shadows on what is seen at a grazing angle, and more noise there. 0: as far on the image, as good.
+    pub sigma_foreshortening: f32,
 }
 
 impl Default for FilterSettings {
@@ -181,9 +185,10 @@ impl Default for FilterSettings {
             ridge: 0.25,
             iterations: 4,
             converged: 0.03,
-            sigma_luminance: 4.0,
-            sigma_depth: 0.01,
-            sigma_normal: 8.0,
+            sigma_luminance: 3.5,
+            sigma_depth: 0.0025,
+            sigma_normal: 32.0,
+            sigma_foreshortening: 0.5,
         }
     }
 }
@@ -215,6 +220,7 @@ impl FilterSettings {
             sigma_luminance: 4.0,
             sigma_depth: 1.0,
             sigma_normal: 128.0,
+            sigma_foreshortening: 0.0,
         }
     }
 }
@@ -261,7 +267,8 @@ pub enum Variance {
 /// Formulas of the edge stops.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Stops {
-    /// Distance from the tangent plane, exp(−σ·(1 − n·n')), and squared luminance difference less the noise of both ends.
+    /// Distance from the tangent plane, exp(−σ·(1 − n·n')), foreshortening, and squared luminance difference less the noise of
+    /// both ends.
     #[default]
     NoiseSubtracted,
     /// exp(−|Δz|/(σ·|∇z·Δp|)), max(0, n·n')^σ, exp(−|Δl|/(σ·√Var)).

@@ -87,7 +87,7 @@ pub fn all() -> Vec<Method> {
 type Change = fn(&mut FilterSettings);
 
 /// Each idea of the default (docs/filter.md), undone.
-const ABLATIONS: [(&str, Change); 11] = [
+const ABLATIONS: [(&str, Change); 12] = [
     ("without gradient", |f| f.gradient = Gradient::Off),
     ("without ratio", |f| f.history_ratio = false),
     ("without linear fit", |f| f.local_linear_fit = false),
@@ -97,6 +97,7 @@ const ABLATIONS: [(&str, Change); 11] = [
         let FilterSettings { stops, sigma_depth, sigma_normal, .. } = FilterSettings::classic();
         (f.stops, f.sigma_depth, f.sigma_normal) = (stops, sigma_depth, sigma_normal);
     }),
+    ("without foreshortening", |f| f.sigma_foreshortening = 0.0),
     ("filter what has converged", |f| f.converged = 0.0),
     ("25 taps", |f| f.kernel = Kernel::Full),
     ("blend by lambda", |f| f.blend = Blend::Lambda),

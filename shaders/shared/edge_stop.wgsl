@@ -30,3 +30,14 @@ fn plane_distance(plane: Plane, offset: vec2<f32>, depth: f32) -> f32 {
     let along = plane.slope.x + offset.x * plane.slope.y + offset.y * plane.slope.z;
     return abs(along * depth - plane.slope.x * plane.depth);
 }
+
+// How much farther a step over the image leads on the plane than on one that is seen face on: |z·Δd + Δz·d| / (z·|Δd|) − 1 with
+// the direction d. On a floor that runs to the horizon a pixel's neighbours above and below may be metres away.
+fn foreshortening(plane: Plane, pixel: vec2<f32>, offset: vec2<f32>) -> f32 {
+    let c = frame.camera;
+    let across = offset.x * c.du + offset.y * c.dv;
+    // Δz/z; a plane that is seen edge on keeps a side.
+    let deeper = -dot(offset, plane.slope.yz) / select(plane.slope.x, -1e-4, abs(plane.slope.x) < 1e-4);
+    let along = across + deeper * direction(c, sample_point(c, pixel));
+    return max(sqrt(dot(along, along) / dot(across, across)) - 1.0, 0.0);
+}

@@ -57,6 +57,7 @@ struct Frame {
     lambda_block: u32,
     // Deviation over luminance below which a pixel is left as it is.
     converged: f32,
+    sigma_foreshortening: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

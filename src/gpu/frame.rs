@@ -34,7 +34,8 @@ pub(crate) struct FrameUniform {
     dead_zone: f32,
     lambda_block: u32,
     converged: f32,
-    padding: [u32; 3],
+    sigma_foreshortening: f32,
+    padding: [u32; 2],
 }
 
 /// What differs from frame to frame.
@@ -94,7 +95,8 @@ impl FrameUniform {
             dead_zone: f.gradient_dead_zone,
             lambda_block: moment.lambda_block,
             converged: f.converged,
-            padding: [0; 3],
+            sigma_foreshortening: f.sigma_foreshortening,
+            padding: [0; 2],
         }
     }
 }
@@ -108,7 +110,8 @@ mod tests {
     fn the_frame_lies_where_the_shader_reads_it() {
         let fields = fields!(FrameUniform: camera, previous, size, strata, index, seed, continued, samples, bounces, roulette,
             alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
-            ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block, converged);
+            ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block, converged,
+            sigma_foreshortening);
         assert_layout("Frame", fields, size_of::<FrameUniform>());
     }
 }

@@ -63,8 +63,11 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
             let distance = dot(normal, sub(there, position)).abs() / (f64::from(f.sigma_depth) * z);
             let excess = (difference * difference - variance - variance.min(other)).max(0.0);
             let sigma = f64::from(f.sigma_luminance).powi(2);
-            let exponent =
-                distance + f64::from(f.sigma_normal) * (1.0 - cosine) + excess / (sigma * (variance + other) + 1e-37);
+            let slant = f64::from(f.sigma_foreshortening) * foreshortening(bench, [x, y], [dx, dy], normal);
+            let exponent = slant
+                + distance
+                + f64::from(f.sigma_normal) * (1.0 - cosine)
+                + excess / (sigma * (variance + other) + 1e-37);
             falloff(exponent)
         };
         taps.push((spline(dx) * spline(dy) * stop, [dx, dy].map(f64::from), color, other));
@@ -74,6 +77,20 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
     let spread = taps.iter().map(|t| t.0 * t.0 * t.3).sum::<f64>().sqrt() / weight;
     let color = if features.has(Feature::LocalLinearFit) { fit(&taps, weight, mean, f.ridge.into()) } else { mean };
     (color, spread, mean)
+}
+
+/// How much longer a step over the image is on the tangent plane through a pixel than on one that faces the camera, both a unit
+/// away: rays are affine in the pixel and meet the plane at their own depths, so their difference's limit is the derivative of
+/// ray/(n·ray).
+fn foreshortening(bench: &Bench, [x, y]: [i32; 2], [dx, dy]: [i32; 2], normal: V) -> f64 {
+    let ray = bench.ray(x, y);
+    let step = sub(bench.ray(x + dx, y + dy), ray);
+    let facing = match dot(normal, ray) {
+        small if small.abs() < 1e-4 => -1e-4,
+        facing => facing,
+    };
+    let moved = sub(step, scale(ray, dot(normal, step) / facing));
+    ((dot(moved, moved) / dot(step, step)).sqrt() - 1.0).max(0.0)
 }
 
 /// A tap: weight, offset in strides, colour, variance.
@@ -170,6 +187,7 @@ fn other_numbers() {
         sigma_luminance: 1.5,
         sigma_depth: 0.05,
         sigma_normal: 30.0,
+        sigma_foreshortening: 2.0,
         ridge: 0.02,
         stops: Stops::NoiseSubtracted,
         ..Default::default()
