@@ -9,7 +9,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 use wgpu::{
-    Device, DeviceDescriptor, Instance, InstanceDescriptor, Limits, Queue, TextureFormat, TextureUsages, TextureView,
+    Device, DeviceDescriptor, Instance, InstanceDescriptor, Limits, MemoryBudgetThresholds, Queue, TextureFormat,
+    TextureUsages, TextureView,
 };
 
 pub const CASES: &[Case] = &[
@@ -21,6 +22,15 @@ pub const CASES: &[Case] = &[
         origin: "the device itself tells its host: `set_device_lost_callback`",
         measure: lost,
         breaks: Breaks::Never("nothing waits for the device"),
+    },
+    Case {
+        name: "memory that is full",
+        varied: "no allocation succeeds; each call of the interface",
+        quantity: "calls that panic",
+        bound: 0.0,
+        origin: "the device itself tells its host: `on_uncaptured_error`, or an error scope around `new` and `resize`",
+        measure: out_of_memory,
+        breaks: Breaks::Never("what was not allocated is used as if it were, which wgpu refuses"),
     },
     Case {
         name: "limits below the default",
@@ -96,51 +106,84 @@ const CALLS: [&str; 6] = ["new", "begin_frame", "denoise", "render", "show", "re
 
 fn lost() -> Worst {
     let mut worst = Worst::default();
-    let size = [16, 9];
     for (number, call) in CALLS.into_iter().enumerate() {
         let (device, queue, _) = idle(Limits::default());
-        let images = Images::new(&device, size);
-        let descriptor = DenoiserDescriptor { size, diagnostics: true, ..Default::default() };
-        let scene = builtin::scene("cornell", "all").unwrap();
-        let mut panics = 0;
-        // What was not made cannot be called.
-        let (mut denoiser, mut uploaded) = (None, None);
-        for (at, step) in CALLS.into_iter().enumerate() {
+        let lose = |at| {
             if at == number {
                 device.destroy();
             }
-            let mut encoder = device.create_command_encoder(&Default::default());
-            let called = catch_unwind(AssertUnwindSafe(|| {
-                if step == "new" {
-                    denoiser = Denoiser::new(&device, &queue, &descriptor).ok();
-                    uploaded = GpuScene::new(&device, &queue, &scene).ok();
-                }
-                let (Some(denoiser), Some(uploaded)) = (&mut denoiser, &mut uploaded) else { return };
-                // Errors are fine, panics are not.
-                let _ = match step {
-                    "begin_frame" => denoiser.begin_frame(&device, &mut encoder, &images.surfaces(0)).map(|_| ()),
-                    "denoise" => denoiser.denoise(&device, &mut encoder, &Shading::new(&images.color, &images.target)),
-                    "render" => {
-                        let _ = uploaded.update(&device, &mut encoder, &scene.pose(Some(0), 0.5));
-                        let camera = Camera::default();
-                        let frame = Frame { scene: uploaded, camera, index: 1, target: &images.target };
-                        denoiser.render(&device, &mut encoder, &frame)
-                    }
-                    "show" => {
-                        let options = ViewOptions::default();
-                        denoiser.show(&device, &mut encoder, View::Depth, options, &images.target)
-                    }
-                    "resize" => denoiser.resize(&device, [8, 8]),
-                    _ => Ok(()),
-                };
-                denoiser.take_counts();
-                denoiser.take_times();
-            }));
-            panics += u32::from(called.is_err());
-            queue.submit([encoder.finish()]);
-        }
-        worst.add(panics.into(), || format!("lost before `{call}`"));
+        };
+        worst.add(panics(&device, &queue, [16, 9], lose).into(), || format!("lost before `{call}`"));
     }
+    worst
+}
+
+/// Makes all calls of the interface in turn, after `before` with the number of each; returns how many panic.
+fn panics(device: &Device, queue: &Queue, size: [u32; 2], before: impl Fn(usize)) -> u32 {
+    let images = Images::new(device, size);
+    let descriptor = DenoiserDescriptor { size, diagnostics: true, ..Default::default() };
+    let scene = builtin::scene("cornell", "all").unwrap();
+    let mut panics = 0;
+    // What was not made cannot be called.
+    let (mut denoiser, mut uploaded) = (None, None);
+    for (number, step) in CALLS.into_iter().enumerate() {
+        before(number);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let called = catch_unwind(AssertUnwindSafe(|| {
+            if step == "new" {
+                denoiser = Denoiser::new(device, queue, &descriptor).ok();
+                uploaded = GpuScene::new(device, queue, &scene).ok();
+            }
+            let (Some(denoiser), Some(uploaded)) = (&mut denoiser, &mut uploaded) else { return };
+            // Errors are fine, panics are not.
+            let _ = match step {
+                "begin_frame" => denoiser.begin_frame(device, &mut encoder, &images.surfaces(0)).map(|_| ()),
+                "denoise" => denoiser.denoise(device, &mut encoder, &Shading::new(&images.color, &images.target)),
+                "render" => {
+                    let _ = uploaded.update(device, &mut encoder, &scene.pose(Some(0), 0.5));
+                    let camera = Camera::default();
+                    let frame = Frame { scene: uploaded, camera, index: 1, target: &images.target };
+                    denoiser.render(device, &mut encoder, &frame)
+                }
+                "show" => {
+                    let options = ViewOptions::default();
+                    denoiser.show(device, &mut encoder, View::Depth, options, &images.target)
+                }
+                "resize" => denoiser.resize(device, [8, 8]),
+                _ => Ok(()),
+            };
+            denoiser.take_counts();
+            denoiser.take_times();
+        }));
+        panics += u32::from(called.is_err());
+        queue.submit([encoder.finish()]);
+    }
+    panics
+}
+
+/// wgpu refuses what would exceed a share of the memory that the driver says to be free: with a share of 0, all.
+fn out_of_memory() -> Worst {
+    let mut worst = Worst::default();
+    let thresholds = MemoryBudgetThresholds { for_resource_creation: Some(0), ..Default::default() };
+    let instance = Instance::new(InstanceDescriptor {
+        // Those that know how much is free.
+        backends: wgpu::Backends::VULKAN | wgpu::Backends::DX12,
+        memory_budget_thresholds: thresholds,
+        ..InstanceDescriptor::new_without_display_handle()
+    });
+    let adapter = pollster::block_on(instance.request_adapter(&Default::default())).unwrap();
+    let (device, queue) = pollster::block_on(adapter.request_device(&DeviceDescriptor::default())).unwrap();
+    let failed = Arc::new(AtomicU32::new(0));
+    let counted = Arc::clone(&failed);
+    device.on_uncaptured_error(Arc::new(move |error| {
+        counted.fetch_add(u32::from(matches!(error, wgpu::Error::OutOfMemory { .. })), Ordering::Relaxed);
+    }));
+    let panics = panics(&device, &queue, [640, 360], |_| {});
+    let failed = failed.load(Ordering::Relaxed);
+    worst.add(panics.into(), || match failed {
+        0 => "nothing: this driver does not say how much is free".into(),
+        _ => format!("{failed} allocations that failed"),
+    });
     worst
 }
 

@@ -1,0 +1,17 @@
+// Numbers through the guards against what is not one, for the test of the guards.
+
+#import asvgf::color::{is_finite, sanitize}
+
+@group(0) @binding(0) var<storage, read> numbers: array<vec4<f32>>;
+// What is let through, and whether each channel is finite as bits 0 to 2.
+@group(0) @binding(1) var<storage, read_write> results: array<vec4<f32>>;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= arrayLength(&numbers) {
+        return;
+    }
+    let c = numbers[id.x].xyz;
+    let finite = vec3(f32(is_finite(c.x)), f32(is_finite(c.y)), f32(is_finite(c.z)));
+    results[id.x] = vec4(sanitize(c), dot(finite, vec3(1.0, 2.0, 4.0)));
+}
