@@ -1,7 +1,10 @@
 // Puts the picture together again: filtered radiance times albedo, plus what the surface or the sky emits towards the camera.
 
 #import asvgf::frame::{frame, inside}
-#import asvgf::packing::{unpack_rgb, filtered_color}
+#import asvgf::packing::unpack_rgb
+#ifndef UNFILTERED
+#import asvgf::history::filtered_color
+#endif
 
 #ifdef UNFILTERED
 @group(0) @binding(1) var radiance: texture_2d<u32>;

@@ -24,7 +24,7 @@ pub enum View {
     Motion = 6,
     /// λ of each stratum before interpolation, 0…1.
     Gradient = 7,
-    /// λ of each pixel, 0…1 in steps of 1/255, rounded up.
+    /// λ of each pixel, 0…1; where there was no history to shorten, what it would have been.
     Lambda = 8,
     /// Weight of the new frame, 0…1.
     Alpha = 9,

@@ -11,8 +11,8 @@ use wgpu::naga::Module;
 const SHARED: &[(&str, &str)] = &[
     ("color", include_str!("../../shaders/shared/color.wgsl")),
     ("packing", include_str!("../../shaders/shared/packing.wgsl")),
-    ("history", include_str!("../../shaders/shared/history.wgsl")),
     ("random", include_str!("../../shaders/shared/random.wgsl")),
+    ("history", include_str!("../../shaders/shared/history.wgsl")),
     ("frame", include_str!("../../shaders/shared/frame.wgsl")),
     ("counts", include_str!("../../shaders/shared/counts.wgsl")),
     ("strata", include_str!("../../shaders/shared/strata.wgsl")),
@@ -20,6 +20,7 @@ const SHARED: &[(&str, &str)] = &[
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
     ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
+    ("change", include_str!("../../shaders/shared/change.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("scene", include_str!("../../shaders/shared/scene.wgsl")),
     #[cfg(feature = "path-tracer")]

@@ -20,7 +20,7 @@ pub enum Image {
     Albedo,
     /// Emission towards the camera.
     Emission,
-    /// Accumulated colour, variance, history length, λ.
+    /// Accumulated colour, variance, history length.
     History,
     /// The history's colour, where it comes from the spatial filter.
     Feedback,
@@ -64,13 +64,12 @@ impl Image {
             | Self::Motion
             | Self::Radiance
             | Self::Emission
+            | Self::History
             | Self::Feedback
             | Self::Color(_)
             | Self::PairNow
             | Self::PairBefore => TextureFormat::Rg32Uint,
-            Self::History | Self::Samples | Self::Repeats | Self::PairsNow(_) | Self::PairsBefore(_) => {
-                TextureFormat::Rgba32Uint
-            }
+            Self::Samples | Self::Repeats | Self::PairsNow(_) | Self::PairsBefore(_) => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
             Self::Gradient(_) | Self::Ratio | Self::Sum => TextureFormat::Rgba32Float,
         }

@@ -22,6 +22,7 @@ mod traversal;
 mod atrous;
 mod gradient;
 mod gradient_sample;
+mod history;
 mod ingest_pairs;
 mod ingest_radiance;
 mod ingest_surface;
