@@ -103,8 +103,7 @@ pub(super) fn unpack_history(words: [u32; 2]) -> Kept {
     let scale = (field(39, 8) - 127.0).exp2();
     let color = [0, 13, 26].map(|shift| field(shift, 13) / 8192.0 * scale);
     let (variance, length) = (field(47, 9), field(56, 8));
-    let variance =
-        if variance < 16.0 { 0.0 } else { from_float_code(variance, 16.0) * VARIANCE_UNIT * scale * scale };
+    let variance = if variance < 16.0 { 0.0 } else { from_float_code(variance, 16.0) * VARIANCE_UNIT * scale * scale };
     Kept { color, variance, length: if length == 0.0 { 0.0 } else { from_float_code(length - 1.0, 16.0) } }
 }
 

@@ -2,9 +2,9 @@
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
-    Kept, assert_close, depth, float, VARIANCE_UNIT, float_code, history_exponent, luminance, pack_history, pack_motion, pack_rgb,
-    radiance, rounding, unpack_history, unpack_motion, unpack_normal, unpack_rgb,
-    variance_code, word,
+    Kept, VARIANCE_UNIT, assert_close, depth, float, float_code, history_exponent, luminance, pack_history,
+    pack_motion, pack_rgb, radiance, rounding, unpack_history, unpack_motion, unpack_normal, unpack_rgb, variance_code,
+    word,
 };
 use super::plane::{Pinhole, V, add, dot, scale, sub};
 use super::random::Random;
@@ -23,7 +23,7 @@ pub(super) struct Given {
     pub(super) object: Vec<u32>,
     pub(super) object_before: Vec<u32>,
     pub(super) radiance: Vec<Texel>,
-    pub(super) history: Vec<Texel>,
+    pub(super) history: Vec<Kept>,
     feedback: Vec<Texel>,
     samples: Vec<Texel>,
     gradient: Vec<Texel>,
@@ -92,11 +92,16 @@ impl Given {
         };
         let radiance_now = each(&mut |r| color(r));
         let feedback = each(&mut |r| color(r));
-        let history = each(&mut |r| {
-            let length = 1.0 + 20.0 * r.unit().powi(2);
-            let color = if features.has(Feature::Feedback) { [r.unit(); 3] } else { radiance(r) };
-            pack_guide(&pack_history(Kept { color, variance: r.unit().powi(4), length }))
-        });
+        let history = (0..count)
+            .map(|_| {
+                let length = 1.0 + 20.0 * random.unit().powi(2);
+                let color = if features.has(Feature::Feedback) { [random.unit(); 3] } else { radiance(&mut random) };
+                // What the texture holds of it.
+                unpack_history(pack_history(Kept { color, variance: random.unit().powi(4), length }))
+            })
+            .collect();
+        let mut each =
+            |f: &mut dyn FnMut(&mut Random) -> Texel| -> Vec<Texel> { (0..count).map(|_| f(&mut random)).collect() };
         let object = each(&mut |r| [u32::from(r.unit() < 0.1); 4]).iter().map(|t| t[0]).collect();
         let object_before = each(&mut |r| [u32::from(r.unit() < 0.1); 4]).iter().map(|t| t[0]).collect();
         let samples = bench.records(&guide, &mut random);
@@ -152,7 +157,7 @@ impl Given {
             ("object", self.object.iter().map(|&o| [o; 4]).collect()),
             ("object_previous", self.object_before.iter().map(|&o| [o; 4]).collect()),
             ("radiance", self.radiance.clone()),
-            ("history_previous", self.history.clone()),
+            ("history_previous", self.history.iter().map(|&h| pack_guide(&pack_history(h))).collect()),
             ("feedback_previous", self.feedback.clone()),
             ("samples", self.samples.clone()),
             ("gradient", self.gradient.clone()),
@@ -193,7 +198,7 @@ impl Given {
         if tests.iter().any(|&t| t < 0.0) {
             return;
         }
-        let h = self.kept(q);
+        let h = self.history[q];
         let (color, mean) = self.stored(q);
         notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(h.variance.sqrt());
         sum.color = add(sum.color, scale(color, w));
@@ -204,14 +209,9 @@ impl Given {
         sum.weight += w;
     }
 
-    /// What a texel of the history holds.
-    fn kept(&self, q: usize) -> Kept {
-        unpack_history([self.history[q][0], self.history[q][1]])
-    }
-
     /// Colour and mean luminance of a texel of the history.
     fn stored(&self, q: usize) -> (V, f64) {
-        let color = self.kept(q).color;
+        let color = self.history[q].color;
         if self.has(Feature::Feedback) {
             (unpack_rgb([self.feedback[q][0], self.feedback[q][1]]), color[0])
         } else {
@@ -223,7 +223,7 @@ impl Given {
     fn before(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> Option<Before> {
         if self.has(Feature::Still) {
             let (color, mean) = self.stored(i);
-            let Kept { variance, length, .. } = self.kept(i);
+            let Kept { variance, length, .. } = self.history[i];
             notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(variance.sqrt());
             return Some(Before { color, mean, variance, length, ..Default::default() });
         }
