@@ -87,7 +87,7 @@
 #if VIEW == 7
 #ifndef UNCHANGED
 // Gradient.
-@group(0) @binding(8) var gradient: texture_2d<f32>;
+@group(0) @binding(8) var gradient: texture_2d<u32>;
 #endif
 #endif
 #ifdef GRADIENT
@@ -188,7 +188,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #ifdef UNCHANGED
     return vec3(0.0);
 #else
-    let g = textureLoad(gradient, pixel / 3, 0).xy;
+    let g = bitcast<vec2<f32>>(textureLoad(gradient, pixel / 3, 0).xy);
     return vec3(clamp(abs(g.x) / max(g.y, 1e-30) - frame.dead_zone, 0.0, 1.0));
 #endif
 #endif

@@ -7,9 +7,9 @@
 #import asvgf::strata_filter::{PLANE, geometric_exponent, in_grid, site}
 
 @group(0) @binding(20) var samples: texture_2d<u32>;
-@group(0) @binding(21) var gradient: texture_2d<f32>;
+@group(0) @binding(21) var gradient: texture_2d<u32>;
 #ifdef HISTORY_RATIO
-@group(0) @binding(22) var ratio: texture_2d<f32>;
+@group(0) @binding(22) var ratio: texture_2d<u32>;
 #endif
 
 struct Change {
@@ -44,14 +44,14 @@ fn add_stratum(
     let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
     let near = select(0.0, tent.x * tent.y, in_grid(stratum) && record.x != 0u);
     let w = near * falloff(exponent);
-    let g = textureLoad(gradient, clamped, 0);
+    let g = bitcast<vec4<f32>>(textureLoad(gradient, clamped, 0));
     (*sum).gradient += w * g.xy;
 #ifdef ACROSS_SURFACES
     (*sum).around += near * g.zw;
 #endif
     (*sum).weight += w;
 #ifdef HISTORY_RATIO
-    (*sum).ratio += w * (textureLoad(ratio, clamped, 0) - 1.0);
+    (*sum).ratio += w * (bitcast<vec4<f32>>(textureLoad(ratio, clamped, 0)) - 1.0);
 #endif
 }
 

@@ -44,8 +44,8 @@ impl Textures {
     ) {
         let needed = needed(&images);
         let last = to == plan.steps.len();
-        let over = |i: usize, slot: Slot| last && plan.is_over(from + i, slot, &needed, self.keep);
-        self.memory.place(&plan.steps[from..to], over);
+        let over = |step: usize, slot: Slot| last && plan.is_over(step, slot, &needed, self.keep);
+        self.memory.place(&plan.steps[..to], from, over);
         if last {
             self.memory.end(needed);
             if images != self.images {
@@ -93,11 +93,11 @@ impl Textures {
 
 fn suits(view: &TextureView, kind: Kind, size: [u32; 2]) -> bool {
     let texture = view.texture();
-    texture.format() == kind.format && [texture.width(), texture.height()] == kind.extent(size)
+    texture.format() == kind.format && [texture.width(), texture.height()] == kind.grid.extent(size)
 }
 
 fn create(device: &Device, size: [u32; 2], kind: Kind, number: usize) -> TextureView {
-    let [width, height] = kind.extent(size);
+    let [width, height] = kind.grid.extent(size);
     let label = format!("asvgf texture {number}");
     device
         .create_texture(&TextureDescriptor {

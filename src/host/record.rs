@@ -118,9 +118,9 @@ impl Denoiser {
         let resources = Resources { counts: counts.as_ref(), ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
         let image = |image| self.textures.view(Slot::Now(image)).cloned();
-        let reshade = match (image(Image::Guide), image(Image::Repeats)) {
-            (Some(guide), Some(repeats)) if plan.features.has(Feature::Reshade) => {
-                Some(Reshade { frame: uniform.clone(), guide, repeats })
+        let reshade = match (image(Image::Guide), image(Image::Repeats), image(Image::Shifts)) {
+            (Some(guide), Some(repeats), Some(shifts)) if plan.features.has(Feature::Reshade) => {
+                Some(Reshade { frame: uniform.clone(), guide, repeats, shifts })
             }
             _ => None,
         };

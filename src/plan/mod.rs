@@ -136,9 +136,11 @@ impl Plan {
         has(Feature::Still) && has(Feature::Unchanged) && !has(Feature::BlendByLambda)
     }
 
-    /// How many of the steps need no radiance: those that [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) records.
+    /// How many of the steps are those of a host's surfaces, which [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) records.
+    /// Until the others are known, nothing that they may need is written over.
     pub fn surface_steps(&self) -> usize {
-        self.steps.iter().take_while(|step| step.pass != Pass::IngestRadiance).count()
+        let surface = |pass| matches!(pass, Pass::IngestSurface | Pass::GradientSample | Pass::Reshade);
+        self.steps.iter().take_while(|step| surface(step.pass)).count()
     }
 
     /// The passes from noisy radiance to filtered colour, if the mode filters.

@@ -38,7 +38,7 @@ fn pairs(repeats: &TextureView, now: &[Rgb], before: &[Rgb]) -> [Vec<Rgb>; 2] {
     let words: Vec<u32> = bytemuck::pod_collect_to_vec(&gpu().read(repeats.texture()));
     let mut images = [vec![[-1.0; 3]; now.len()], vec![[-1.0; 3]; now.len()]];
     let across = SIZE[0].div_ceil(3);
-    for (i, pair) in words.chunks_exact(8).enumerate() {
+    for (i, pair) in words.chunks_exact(4).enumerate() {
         let (x, y) = (i as u32 % across, i as u32 / across);
         if let Some(place) = pair[0].checked_sub(1) {
             let pixel = ((3 * y + place / 3) * SIZE[0] + 3 * x + place % 3) as usize;
