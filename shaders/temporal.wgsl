@@ -10,8 +10,14 @@
 #ifdef FEEDBACK
 #import asvgf::packing::pack_rgb
 #endif
+#ifdef HOST_LIGHT
+#import asvgf::host_light::host_sample
+#endif
 #ifndef STILL
 #import asvgf::packing::unpack_motion
+#ifdef HOST_MOTION
+#import asvgf::host_motion::host_motion
+#endif
 #import asvgf::reproject::{Origin, origin_of, same_surface}
 #endif
 #ifdef EXTERNAL_LAMBDA
@@ -24,13 +30,17 @@
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 #ifndef STILL
+#ifndef HOST_MOTION
 @group(0) @binding(3) var motion: texture_2d<u32>;
+#endif
 #endif
 #ifdef OBJECTS
 @group(0) @binding(4) var object: texture_2d<u32>;
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
 #endif
+#ifndef HOST_LIGHT
 @group(0) @binding(6) var radiance: texture_2d<u32>;
+#endif
 #ifdef FEEDBACK
 @group(0) @binding(8) var feedback_previous: texture_2d<u32>;
 @group(0) @binding(9) var feedback_out: texture_storage_2d<rg32uint, write>;
@@ -186,14 +196,22 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // A miss is carried on like a surface, and what comes of it is not kept.
     let seen = depth > 0.0;
     let normal = unpack_normal(g.x);
+#ifdef HOST_LIGHT
+    let sample = unpack_rgb(host_sample(pixel, seen));
+#else
     let sample = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+#endif
     let l = luminance(sample);
     var history = History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
     if frame.continued != 0u {
 #ifdef STILL
         history = history_of(pixel);
 #else
+#ifdef HOST_MOTION
+        let m = unpack_motion(host_motion(pixel, depth).packed);
+#else
         let m = unpack_motion(textureLoad(motion, pixel, 0).xy);
+#endif
 #ifdef OBJECTS
         let here = textureLoad(object, pixel, 0).x;
 #else

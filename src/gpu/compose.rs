@@ -17,6 +17,8 @@ const SHARED: &[(&str, &str)] = &[
     ("counts", include_str!("../../shaders/shared/counts.wgsl")),
     ("strata", include_str!("../../shaders/shared/strata.wgsl")),
     ("edge_stop", include_str!("../../shaders/shared/edge_stop.wgsl")),
+    ("host_motion", include_str!("../../shaders/shared/host_motion.wgsl")),
+    ("host_light", include_str!("../../shaders/shared/host_light.wgsl")),
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
     ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),

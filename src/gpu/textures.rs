@@ -22,6 +22,11 @@ impl Textures {
         Self { keep, ..Default::default() }
     }
 
+    /// Whether every image is kept until the next frame.
+    pub fn keeps(&self) -> bool {
+        self.keep
+    }
+
     /// Whether a frame that begins now finds all of the last one that a plan asks for.
     pub fn has_all_before(&self, plan: &Plan) -> bool {
         self.memory.has_all_before(&plan.steps)

@@ -148,7 +148,7 @@ pub(crate) fn step(
     let used = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name));
     let bindings: Vec<_> = used.collect();
     if bindings.iter().any(|(_, slot)| matches!(slot, Slot::Now(image) if !holds(*image))) {
-        return missing("its texture was given to another image: set DenoiserDescriptor::views");
+        return missing("its image was not kept: set DenoiserDescriptor::views");
     }
     Ok(Step { pass: Pass::View, features, grid: Grid::Pixels, iteration: view as u32, bindings })
 }

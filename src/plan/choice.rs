@@ -54,6 +54,17 @@ pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes)
     let pairs = denoise && settings.filter.gradient == settings::Gradient::Pairs;
     let lambda = denoise && settings.filter.gradient == settings::Gradient::Lambda;
     let modulated = !traits.demodulated && (traits.albedo || traits.emission);
+    let why_copies = if denoise && settings.filter.gradient == settings::Gradient::Reshade {
+        Some("copies are kept: paths are repeated, and compared with the last frame's")
+    } else if traits.diagnostics {
+        Some("copies are kept: what is cleaned is counted once")
+    } else {
+        traits.views.then_some("copies are kept, for views")
+    };
+    let why_light = traits.in_target.then_some("copies are kept: what is written cannot be read");
+    let direct = |why: Option<&'static str>| (why.is_none(), ["nothing else reads it", why.unwrap_or_default()]);
+    let (host_motion, motion_words) = direct(why_copies);
+    let (host_light, light_words) = direct(why_copies.or(why_light));
     let rows = [
         (
             OctahedralNormals,
@@ -63,6 +74,8 @@ pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes)
         (MappedNormals, traits.mapped_normals, ["normals are mapped to 0…1", "normals are signed"]),
         (PackedNormals, traits.packed_normals, ["normals are one word", "normals have channels"]),
         (PreviousDepth, traits.previous_depth, ["previous depths are given", "no previous depth is given"]),
+        (HostMotion, host_motion, motion_words),
+        (HostLight, host_light, light_words),
         (Objects, traits.instances, OBJECTS),
         (FloatObjects, traits.instances && traits.float_instances, ["instances are floats", "no instance is a float"]),
         (Albedo, traits.albedo, ["an albedo is given", "no albedo is given: textures are filtered with the light"]),

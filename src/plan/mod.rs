@@ -113,7 +113,9 @@ impl Plan {
             plan.steps.push(passes::gradient_sample::step(features));
             plan.steps.push(passes::reshade::step(features));
         }
-        plan.steps.push(passes::ingest_radiance::step(features));
+        if !features.has(Feature::HostLight) {
+            plan.steps.push(passes::ingest_radiance::step(features));
+        }
         if features.has(Feature::Pairs) {
             plan.steps.push(passes::ingest_pairs::step(features));
         }
