@@ -309,6 +309,32 @@ mod tests {
         }
     }
 
+    /// docs/leaving-out.md has these: images per pixel and, of strata, per nine.
+    #[test]
+    fn frames_take_no_more_than_the_images_that_are_alive_at_once() {
+        // Whole strata.
+        let size = [300, 300];
+        let bytes = |gradient, traits: HostTraits| {
+            let filter = FilterSettings { gradient, ..Default::default() };
+            let settings = Settings { filter, ..Settings::adaptive() };
+            let plan = Plan::hosted(&traits, &settings, Changes::ANY, TextureFormat::Rgba32Float);
+            plan.bytes(size, false) as f64 / f64::from(size[0] * size[1])
+        };
+        let alone = HostTraits::default();
+        let all = HostTraits { albedo: true, emission: true, ..alone };
+        // Guide and history, each now and before.
+        assert_eq!(bytes(Gradient::Off, alone), 32.0);
+        assert_eq!(bytes(Gradient::Off, all), 32.0);
+        assert_eq!(bytes(Gradient::Lambda, alone), 32.0);
+        // And the strata's records, their pairs, which two by two take turns, and the host's pairs of half the size.
+        let strata = 5.0 * 16.0 / 9.0;
+        assert_eq!(bytes(Gradient::Pairs, alone), 32.0 + strata + 16.0 / 9.0);
+        // And motion and radiance; the last frame's gives way to the history.
+        assert_eq!(bytes(Gradient::Reshade, alone), 48.0 + strata);
+        // And the albedo of both frames, and the emission.
+        assert_eq!(bytes(Gradient::Reshade, all), 72.0 + strata);
+    }
+
     #[test]
     fn sharing_saves_memory_and_views_cost_it() {
         for (plan, _) in plans() {
