@@ -32,7 +32,8 @@ pub struct Surfaces<'a> {
     pub normal: &'a TextureView,
     /// Where the surface point was in the previous frame's image less where it is, in pixels, x right, y down, without either
     /// frame's jitter: first two channels of `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. NaN or infinite: it was
-    /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether it is right.
+    /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether it is right. It and `previous_depth` may be read by what
+    /// [`Denoiser::denoise`](crate::Denoiser::denoise) records: leave them as they are until then.
     pub motion: &'a TextureView,
     /// The linear depth that the surface point had in the previous frame's camera, in the formats of `depth`. Without it points are
     /// taken as not moving in depth, which holds for all that only the camera moves. With re-shading, points that move are placed by
@@ -50,7 +51,7 @@ pub struct Surfaces<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Shading<'a> {
     /// Noisy linear radiance, Rec. 709, ≥ 0 (what is above 10¹⁵ counts as that): `rgba16float`, `rgba32float`, `rg11b10ufloat` or `rgb9e5ufloat`. Where nothing was
-    /// hit it is shown as it is. It may be the target too.
+    /// hit it is shown as it is. It may be the target too (it is copied then).
     pub radiance: &'a TextureView,
     /// Linear reflectance at the visible surface, 0…1: `rgba8unorm` and `bgra8unorm` (`-srgb` too), `rgb10a2unorm`, and the formats
     /// of `radiance`. Radiance is divided by it before filtering (at least by 10⁻³) and the result multiplied, so that textures stay
