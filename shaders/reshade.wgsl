@@ -1,6 +1,7 @@
-// What a host needs to repeat one path of the last frame per stratum. shaders/host/reshade.wgsl, which becomes part of the host's
-// shader, reads it:
-//   repeats: place of the pixel that repeats, 1…9 (0: none) · last frame's pixel, x | y << 16 · that pixel's packed normal · its depth
+// What a host needs to repeat one path of the last frame per stratum. shaders/host/reshade.wgsl, which becomes part of
+// the host's shader, reads it:
+//   repeats: place of the pixel that repeats, 1…9 (0: none) · last frame's pixel, x | y << 16 · that pixel's packed
+//     normal · its depth
 //   shifts: how far the surface has moved since, in world space
 //
 // The host's own numbers tell that, to their last bit: what the filter keeps of them is rounded, and a surface shaded beside

@@ -1,7 +1,8 @@
 // Reprojects the history and blends this frame into it: a running average of 1/n that the temporal gradient shortens.
 //
-// The history is a colour, the variance of a sample's luminance, and the history length n (history.wgsl). The mean luminance is that
-// of the colour, unless the colour is fed from the spatial filter (FEEDBACK): then it takes the colour's place, as a grey.
+// The history is a colour, the variance of a sample's luminance, and the history length n (history.wgsl). The mean
+// luminance is that of the colour, unless the colour is fed from the spatial filter (FEEDBACK): then it takes the colour's
+// place, as a grey.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance

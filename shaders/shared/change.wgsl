@@ -55,11 +55,12 @@ fn add_stratum(
 #endif
 }
 
-// What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is on the
-// surface.
+// What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is
+// on the surface.
 //
-// With ACROSS_SURFACES, λ is not below what all paths around saw together, on whatever surface: a thin pillar has few of its own,
-// and a change that these missed (of indirect light, say, which one path in twenty finds) would stay for a whole history.
+// With ACROSS_SURFACES, λ is not below what all paths around saw together, on whatever surface: a thin pillar has few of
+// its own, and a change that these missed (of indirect light, say, which one path in twenty finds) would stay for a
+// whole history.
 fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Change {
     let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;

@@ -2,28 +2,30 @@
 
 // What a pixel keeps from frame to frame, in 64 bits:
 //   colour: 13 bits of mantissa for each channel with a common exponent of 8 bits
-//   variance of a sample's luminance: 5 bits of exponent, relative to the colour's, and 4 of mantissa; that of a deviation of
-//     2⁻⁹ … 2⁵ of the colour. A greater one raises the exponent, as such noise hides far more than the colour's last bits.
+//   variance of a sample's luminance: 5 bits of exponent, relative to the colour's, and 4 of mantissa; that of a
+//     deviation of 2⁻⁹ … 2⁵ of the colour. A greater one raises the exponent, as such noise hides far more than the
+//     colour's last bits.
 //   history length: 4 bits of exponent, 4 of mantissa; 1 … 61 440, and exact up to 32. 0 says that nothing was hit.
 //
-// Rounded to the nearest, a running average of n frames would stop moving when it is n·2⁻¹⁴ off. So each number is rounded up as
-// often as what is cut off is large: what is stored is right on average, and a number that needs no rounding stays what it is.
+// Rounded to the nearest, a running average of n frames would stop moving when it is n·2⁻¹⁴ off. So each number is
+// rounded up as often as what is cut off is large: what is stored is right on average, and a number that needs no
+// rounding stays what it is.
 
 #import asvgf::random::hash
 #ifndef TEMPORAL_ONLY
 #import asvgf::packing::tap_color
 #endif
 
-// Numbers to round with, one for each of the three fields, uniform in 32 bits. From frame to frame they follow the additive
-// recurrence of three dimensions (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"): rounding errors cancel
-// sooner than those of independent numbers do.
+// Numbers to round with, one for each of the three fields, uniform in 32 bits. From frame to frame they follow the
+// additive recurrence of three dimensions (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences"):
+// rounding errors cancel sooner than those of independent numbers do.
 fn rounding(pixel: vec2<u32>, index: u32) -> vec3<u32> {
     let start = hash(pixel.x ^ hash(pixel.y));
     return vec3(start, start << 11u, start << 22u) + index * vec3(3518319155u, 2882110345u, 2360945575u);
 }
 
-// What is taken from the bits of a variance so that its exponent becomes relative to the colour's: 1 … 30 then, where the variance
-// counts. In integers, as a product of floats may leave the range of f32 on its way.
+// What is taken from the bits of a variance so that its exponent becomes relative to the colour's: 1 … 30 then, where
+// the variance counts. In integers, as a product of floats may leave the range of f32 on its way.
 fn variance_offset(exponent: u32) -> i32 {
     return min(2 * i32(exponent) - 147, 255) * 0x800000;
 }
@@ -33,7 +35,7 @@ fn pack_history(color: vec3<f32>, variance: f32, length: f32, random: vec3<u32>)
     let square = bitcast<u32>(min(variance, 1e37));
     // What is below f32's normal numbers is nothing.
     let varies = square >= 0x800000u;
-    // The largest channel is below 2^(exponent − 127), also when it is rounded up: its last step counts to the next exponent.
+    // The largest channel is below 2^(exponent − 127), also when it is rounded up: its last step counts to the next.
     let of_color = ((bitcast<u32>(largest) + 0x7ffu) >> 23u) + 1u;
     // So that the variance is below 2¹¹ times the square of that.
     let of_variance = select(0u, (square >> 24u) + 59u, varies);

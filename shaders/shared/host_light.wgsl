@@ -1,6 +1,7 @@
 #define_import_path asvgf::host_light
 
-// A host's light, cleaned before it reaches history: as ingest_radiance.wgsl stores it, or for who reads it at once (HOST_LIGHT).
+// A host's light, cleaned before it reaches history: what ingest_radiance.wgsl stores, or (HOST_LIGHT) what others read
+// instead.
 
 #import asvgf::color::{BRIGHTEST, is_finite, sanitize}
 #import asvgf::packing::pack_rgb

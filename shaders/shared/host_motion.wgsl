@@ -1,6 +1,7 @@
 #define_import_path asvgf::host_motion
 
-// A host's motion, cleaned before it reaches history: as ingest_surface.wgsl stores it, or for who reads it at once (HOST_MOTION).
+// A host's motion, cleaned before it reaches history: what ingest_surface.wgsl stores, or (HOST_MOTION) what
+// temporal.wgsl reads instead.
 
 #import asvgf::frame::{frame, project, sample_point, world_position}
 #import asvgf::color::is_finite
