@@ -27,10 +27,11 @@
 @group(0) @binding(4) var now_filtered: texture_2d<u32>;
 @group(0) @binding(5) var before_filtered: texture_2d<u32>;
 // ρ for r, g, b and luminance.
-@group(0) @binding(7) var ratio_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(7) var ratio_out: texture_storage_2d<rgba32uint, write>;
 #endif
-// Numerator, denominator; again, for what the filter gathers from any surface.
-@group(0) @binding(8) var gradient_out: texture_storage_2d<rgba32float, write>;
+// Numerator, denominator; again, for what the filter gathers from any surface. Both images hold bits of f32, so that they may lie
+// where pairs lay.
+@group(0) @binding(8) var gradient_out: texture_storage_2d<rgba32uint, write>;
 
 // Luminances, demodulated, below which there is nothing to compare: 2⁻¹⁰⁰ keeps every later product a normal number.
 const DARK: f32 = 7.9e-31;
@@ -123,8 +124,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         gradient = mix(gradient, vec2(pow(max(rescaled.larger, DARK), frame.gradient_gamma)), rescaled.beyond);
 #endif
     }
-    textureStore(gradient_out, stratum, vec4(gradient, gradient));
+    textureStore(gradient_out, stratum, bitcast<vec4<u32>>(gradient.xyxy));
 #ifdef HISTORY_RATIO
-    textureStore(ratio_out, stratum, ratio);
+    textureStore(ratio_out, stratum, bitcast<vec4<u32>>(ratio));
 #endif
 }

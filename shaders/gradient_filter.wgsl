@@ -5,29 +5,29 @@
 #import asvgf::strata_filter::{site, tap_weight, tent, in_grid}
 
 @group(0) @binding(1) var<uniform> stride: i32;
-@group(0) @binding(4) var gradient_out: texture_storage_2d<rgba32float, write>;
+@group(0) @binding(4) var gradient_out: texture_storage_2d<rgba32uint, write>;
 
 #ifdef STORAGE_READS
 @group(0) @binding(2) var samples: texture_storage_2d<rgba32uint, read>;
-@group(0) @binding(3) var gradient: texture_storage_2d<rgba32float, read>;
+@group(0) @binding(3) var gradient: texture_storage_2d<rgba32uint, read>;
 
 fn record_of(stratum: vec2<i32>) -> vec4<u32> {
     return textureLoad(samples, stratum);
 }
 
 fn gradient_of(stratum: vec2<i32>) -> vec4<f32> {
-    return textureLoad(gradient, stratum);
+    return bitcast<vec4<f32>>(textureLoad(gradient, stratum));
 }
 #else
 @group(0) @binding(2) var samples: texture_2d<u32>;
-@group(0) @binding(3) var gradient: texture_2d<f32>;
+@group(0) @binding(3) var gradient: texture_2d<u32>;
 
 fn record_of(stratum: vec2<i32>) -> vec4<u32> {
     return textureLoad(samples, stratum, 0);
 }
 
 fn gradient_of(stratum: vec2<i32>) -> vec4<f32> {
-    return textureLoad(gradient, stratum, 0);
+    return bitcast<vec4<f32>>(textureLoad(gradient, stratum, 0));
 }
 #endif
 
@@ -57,5 +57,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             }
         }
     }
-    textureStore(gradient_out, stratum, sum / max(weights, vec2(1.0)).xxyy);
+    textureStore(gradient_out, stratum, bitcast<vec4<u32>>(sum / max(weights, vec2(1.0)).xxyy));
 }

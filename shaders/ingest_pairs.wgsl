@@ -7,13 +7,20 @@
 #ifdef DIAGNOSTICS
 #import asvgf::counts::counts
 #endif
+#ifdef HOST_LIGHT
+#ifdef ALBEDO
+#import asvgf::host_light::host_albedo
+#endif
+#endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 @group(0) @binding(2) var current: texture_2d<f32>;
 @group(0) @binding(3) var previous: texture_2d<f32>;
 #ifdef MODULATED
 #ifdef ALBEDO
+#ifndef HOST_LIGHT
 @group(0) @binding(4) var albedo: texture_2d<f32>;
+#endif
 #endif
 #endif
 @group(0) @binding(5) var samples_out: texture_storage_2d<rgba32uint, write>;
@@ -33,7 +40,12 @@ fn divisor_at(pixel: vec2<i32>) -> vec3<f32> {
     var divisor = vec3(1.0);
 #ifdef MODULATED
 #ifdef ALBEDO
+#ifdef HOST_LIGHT
+    // Asked for where there is a surface alone.
+    divisor = host_albedo(pixel, true);
+#else
     divisor = textureLoad(albedo, pixel, 0).xyz;
+#endif
 #ifdef LUMINANCE_PAIRS
     divisor = vec3(luminance(divisor));
 #endif

@@ -1,13 +1,16 @@
 // A host's depth, normals and motion as the filter's own images. What cannot be used is cleaned here, before it reaches history.
 
-#import asvgf::frame::{frame, inside, project, sample_point, world_position}
+#import asvgf::frame::inside
 #import asvgf::color::is_finite
-#import asvgf::packing::{pack_motion, pack_normal}
+#import asvgf::packing::pack_normal
 #ifdef OCTAHEDRAL_NORMALS
 #import asvgf::packing::octahedral
 #endif
 #ifdef PACKED_NORMALS
 #import asvgf::packing::unpack_octahedral
+#endif
+#ifndef HOST_MOTION
+#import asvgf::host_motion::host_motion
 #endif
 #ifdef DIAGNOSTICS
 #import asvgf::counts::counts
@@ -19,10 +22,6 @@
 #else
 @group(0) @binding(2) var normal: texture_2d<f32>;
 #endif
-@group(0) @binding(3) var motion: texture_2d<f32>;
-#ifdef PREVIOUS_DEPTH
-@group(0) @binding(4) var previous_depth: texture_2d<f32>;
-#endif
 #ifdef OBJECTS
 #ifdef FLOAT_OBJECTS
 @group(0) @binding(5) var instance: texture_2d<f32>;
@@ -33,14 +32,13 @@
 #endif
 // As visibility.wgsl writes them.
 @group(0) @binding(7) var guide_out: texture_storage_2d<rg32uint, write>;
+#ifndef HOST_MOTION
 @group(0) @binding(8) var motion_out: texture_storage_2d<rg32uint, write>;
+#endif
 
 // Depths of surfaces. Some renderers give their sky f32's largest number; within these the square of a depth is a normal number.
 const NEAREST: f32 = 1e-18;
 const FARTHEST: f32 = 1e18;
-
-// Where a point is put that had no place in the previous image: far outside.
-const NOWHERE: vec2<f32> = vec2(-1e9);
 
 fn normal_at(pixel: vec2<i32>) -> vec3<f32> {
 #ifdef PACKED_NORMALS
@@ -69,22 +67,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let squared = dot(n, n);
     // Any length is taken but none: a renderer that clears its normals to zero means that there is no surface.
     let oriented = is_finite(squared) && squared > 1e-12;
-    let m = textureLoad(motion, pixel, 0).xy;
-    var known = is_finite(m.x) && is_finite(m.y);
-    let point = sample_point(frame.camera, vec2<f32>(id.xy));
-#ifdef PREVIOUS_DEPTH
-    let before = textureLoad(previous_depth, pixel, 0).x;
-    known &= is_finite(before);
-#else
-    // A point that does not move in depth but by the camera's motion.
-    let before = project(frame.previous, world_position(frame.camera, point, z)).z;
-#endif
     let seen = hit && oriented;
-    let placed = known && before > 0.0;
     let unit = n * inverseSqrt(max(squared, 1e-12));
     textureStore(guide_out, pixel, vec4(select(vec2(0u), vec2(pack_normal(unit), bitcast<u32>(z)), seen), 0u, 0u));
-    let moved = pack_motion(select(NOWHERE, m, placed), select(0.0, before, placed));
-    textureStore(motion_out, pixel, vec4(select(vec2(0u), moved, seen), 0u, 0u));
+#ifndef HOST_MOTION
+    let moved = host_motion(pixel, z);
+    textureStore(motion_out, pixel, vec4(select(vec2(0u), moved.packed, seen), 0u, 0u));
+#endif
 #ifdef OBJECTS
 #ifdef FLOAT_OBJECTS
     // Only told apart, never computed with.
@@ -95,7 +84,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     textureStore(object_out, pixel, vec4(object));
 #endif
 #ifdef DIAGNOSTICS
-    if hit && !(oriented && known) {
+    if hit && !(oriented && moved.known) {
         atomicAdd(&counts.surfaces, 1u);
     }
 #endif

@@ -1,7 +1,8 @@
-// What a host needs to repeat one path of the last frame per stratum, in two texels side by side. shaders/host/reshade.wgsl, which
-// becomes part of the host's shader, reads them:
-//   place of the pixel that repeats, 1…9 (0: none) · last frame's pixel, x | y << 16 · that pixel's packed normal · its depth
-//   how far the surface has moved since, in world space
+// What a host needs to repeat one path of the last frame per stratum. shaders/host/reshade.wgsl, which becomes part of
+// the host's shader, reads it:
+//   repeats: place of the pixel that repeats, 1…9 (0: none) · last frame's pixel, x | y << 16 · that pixel's packed
+//     normal · its depth
+//   shifts: how far the surface has moved since, in world space
 //
 // The host's own numbers tell that, to their last bit: what the filter keeps of them is rounded, and a surface shaded beside
 // itself may shadow itself.
@@ -14,8 +15,9 @@
 @group(0) @binding(2) var guide_previous: texture_2d<u32>;
 @group(0) @binding(3) var motion: texture_2d<f32>;
 @group(0) @binding(4) var repeats_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(5) var shifts_out: texture_storage_2d<rgba32uint, write>;
 #ifdef PREVIOUS_DEPTH
-@group(0) @binding(5) var previous_depth: texture_2d<f32>;
+@group(0) @binding(6) var previous_depth: texture_2d<f32>;
 #endif
 
 // Whether a surface rests: a point that does shall be shaded at the same place to the last bit, so that its gradient is exactly 0,
@@ -63,7 +65,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         shift = select(moved, vec3(0.0), rests(now, moved, seen, point, m, unpack_normal(record.z)));
         which = vec4(record.xy, before);
     }
-    let texel = vec2(2 * stratum.x, stratum.y);
-    textureStore(repeats_out, texel, which);
-    textureStore(repeats_out, texel + vec2(1, 0), vec4(bitcast<vec3<u32>>(shift), 0u));
+    textureStore(repeats_out, stratum, which);
+    textureStore(shifts_out, stratum, vec4(bitcast<vec3<u32>>(shift), 0u));
 }

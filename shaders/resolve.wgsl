@@ -1,23 +1,70 @@
 // Puts the picture together again: filtered radiance times albedo, plus what the surface or the sky emits towards the camera.
 
 #import asvgf::frame::{frame, inside}
-#import asvgf::packing::{unpack_rgb, filtered_color}
-
-#ifdef UNFILTERED
-@group(0) @binding(1) var radiance: texture_2d<u32>;
-#else
-@group(0) @binding(1) var color: texture_2d<u32>;
-#ifdef BACKGROUND
-@group(0) @binding(7) var radiance: texture_2d<u32>;
-@group(0) @binding(8) var guide: texture_2d<u32>;
+#import asvgf::packing::unpack_rgb
+#ifndef UNFILTERED
+#import asvgf::history::filtered_color
 #endif
-#endif
+#ifdef HOST_LIGHT
+#import asvgf::host_light::host_sample
 #ifdef ALBEDO
-@group(0) @binding(2) var albedo: texture_2d<f32>;
+#import asvgf::host_light::host_albedo
 #endif
 #ifdef DIRECT_EMISSION
-@group(0) @binding(3) var emission: texture_2d<u32>;
+#import asvgf::host_light::host_emission
 #endif
+#endif
+
+#ifndef UNFILTERED
+@group(0) @binding(1) var color: texture_2d<u32>;
+#endif
+@group(0) @binding(8) var guide: texture_2d<u32>;
+
+// Whether there is a surface. Only a host's frames ask for that.
+fn hit_at(pixel: vec2<i32>) -> bool {
+#ifdef HOST_LIGHT
+    return textureLoad(guide, pixel, 0).y != 0u;
+#else
+#ifdef BACKGROUND
+    return textureLoad(guide, pixel, 0).y != 0u;
+#else
+    return true;
+#endif
+#endif
+}
+
+#ifdef HOST_LIGHT
+fn sample_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+    return unpack_rgb(host_sample(pixel, hit));
+}
+#ifdef ALBEDO
+fn albedo_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+    return host_albedo(pixel, hit);
+}
+#endif
+#ifdef DIRECT_EMISSION
+fn emission_at(pixel: vec2<i32>) -> vec3<f32> {
+    return unpack_rgb(host_emission(pixel));
+}
+#endif
+#else
+@group(0) @binding(7) var radiance: texture_2d<u32>;
+@group(0) @binding(2) var albedo: texture_2d<f32>;
+@group(0) @binding(3) var emission: texture_2d<u32>;
+
+fn sample_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+    return unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+}
+
+fn albedo_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+    return textureLoad(albedo, pixel, 0).xyz;
+}
+
+fn emission_at(pixel: vec2<i32>) -> vec3<f32> {
+    return unpack_rgb(textureLoad(emission, pixel, 0).xy);
+}
+#endif
+
 #ifdef ACCUMULATE
 // Sum over the samples so far, and their count.
 @group(0) @binding(4) var sum_previous: texture_2d<f32>;
@@ -35,23 +82,23 @@ const LIMIT: f32 = 3.4e38;
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
+    let hit = hit_at(pixel);
 #ifdef UNFILTERED
-    let reflected = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+    var result = sample_at(pixel, hit);
 #else
-    var reflected = filtered_color(textureLoad(color, pixel, 0).xy);
+    var result = filtered_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
     // Nothing was hit, so nothing was filtered: the host's sky.
-    if textureLoad(guide, pixel, 0).y == 0u {
-        reflected = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+    if !hit {
+        result = sample_at(pixel, hit);
     }
 #endif
 #endif
-    var result = reflected;
 #ifdef ALBEDO
-    result *= textureLoad(albedo, pixel, 0).xyz;
+    result *= albedo_at(pixel, hit);
 #endif
 #ifdef DIRECT_EMISSION
-    result += unpack_rgb(textureLoad(emission, pixel, 0).xy);
+    result += emission_at(pixel);
 #endif
 #ifdef ACCUMULATE
     var sum = vec4(result, 1.0);

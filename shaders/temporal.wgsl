@@ -1,58 +1,62 @@
 // Reprojects the history and blends this frame into it: a running average of 1/n that the temporal gradient shortens.
 //
-// History per pixel: colour (62 bits), variance of a sample's luminance (f32), history length n and λ. The mean luminance is
-// that of the colour, unless the colour is fed from the spatial filter (FEEDBACK): then it takes the colour's place.
+// The history is a colour, the variance of a sample's luminance, and the history length n (history.wgsl). The mean
+// luminance is that of the colour, unless the colour is fed from the spatial filter (FEEDBACK): then it takes the colour's
+// place, as a grey.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::history::{pack_length_lambda, unpack_length}
-#ifdef STILL
-#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_normal}
-#else
-#import asvgf::packing::{pack_rgb, unpack_rgb, unpack_motion, unpack_normal}
+#import asvgf::history::{pack_history, history_color, history_variance, history_length, rounding}
+#import asvgf::packing::{unpack_rgb, unpack_normal}
+#ifdef FEEDBACK
+#import asvgf::packing::pack_rgb
+#endif
+#ifdef HOST_LIGHT
+#import asvgf::host_light::host_sample
+#endif
+#ifndef STILL
+#import asvgf::packing::unpack_motion
+#ifdef HOST_MOTION
+#import asvgf::host_motion::host_motion
+#endif
 #import asvgf::reproject::{Origin, origin_of, same_surface}
 #endif
 #ifdef EXTERNAL_LAMBDA
 #import asvgf::color::is_finite
 #endif
 #ifdef GRADIENT
-#import asvgf::frame::{world_position, sample_point}
+#import asvgf::change::{change_at, samples}
 #import asvgf::strata::{is_sample_pixel, stratum_of}
-#import asvgf::strata_filter::{site, geometric_exponent, in_grid, PLANE}
-#import asvgf::edge_stop::falloff
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 #ifndef STILL
+#ifndef HOST_MOTION
 @group(0) @binding(3) var motion: texture_2d<u32>;
+#endif
 #endif
 #ifdef OBJECTS
 @group(0) @binding(4) var object: texture_2d<u32>;
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
 #endif
+#ifndef HOST_LIGHT
 @group(0) @binding(6) var radiance: texture_2d<u32>;
+#endif
 #ifdef FEEDBACK
 @group(0) @binding(8) var feedback_previous: texture_2d<u32>;
 @group(0) @binding(9) var feedback_out: texture_storage_2d<rg32uint, write>;
 #endif
-#ifdef GRADIENT
-@group(0) @binding(10) var samples: texture_2d<u32>;
-@group(0) @binding(11) var gradient: texture_2d<f32>;
-#ifdef HISTORY_RATIO
-@group(0) @binding(12) var ratio: texture_2d<f32>;
-#endif
-#endif
 #ifdef EXTERNAL_LAMBDA
 @group(0) @binding(10) var external_lambda: texture_2d<f32>;
 #endif
-@group(0) @binding(13) var history_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(13) var history_out: texture_storage_2d<rg32uint, write>;
 
 // What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had.
 #ifdef STORAGE_READS
-@group(0) @binding(7) var history_previous: texture_storage_2d<rgba32uint, read>;
+@group(0) @binding(7) var history_previous: texture_storage_2d<rg32uint, read>;
 
-fn history_at(tap: vec2<i32>) -> vec4<u32> {
-    return textureLoad(history_previous, tap);
+fn history_at(tap: vec2<i32>) -> vec2<u32> {
+    return textureLoad(history_previous, tap).xy;
 }
 #ifndef STILL
 @group(0) @binding(2) var guide_previous: texture_storage_2d<rg32uint, read>;
@@ -71,8 +75,8 @@ fn guide_at(tap: vec2<i32>) -> vec2<u32> {
 }
 #endif
 
-fn history_at(tap: vec2<i32>) -> vec4<u32> {
-    return textureLoad(history_previous, tap, 0);
+fn history_at(tap: vec2<i32>) -> vec2<u32> {
+    return textureLoad(history_previous, tap, 0).xy;
 }
 #endif
 
@@ -89,15 +93,15 @@ struct History {
 // The pixel's own, in an image that stands still.
 fn history_of(pixel: vec2<i32>) -> History {
     let h = history_at(pixel);
-    let length = unpack_length(h.w);
+    let length = history_length(h);
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback_previous, pixel, 0).xy);
-    let mean = bitcast<f32>(h.x);
+    let mean = history_color(h).x;
 #else
-    let color = unpack_rgb(h.xy);
+    let color = history_color(h);
     let mean = luminance(color);
 #endif
-    return History(color, mean, bitcast<f32>(h.z), length, select(0.0, 1.0, length > 0.0));
+    return History(color, mean, history_variance(h), length, select(0.0, 1.0, length > 0.0));
 }
 #else
 struct Taps {
@@ -122,16 +126,16 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
     let h = history_at(tap);
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback_previous, tap, 0).xy);
-    let mean = bitcast<f32>(h.x);
+    let mean = history_color(h).x;
 #else
-    let color = unpack_rgb(h.xy);
+    let color = history_color(h);
     let mean = luminance(color);
 #endif
     (*sum).color += weight * color;
     (*sum).mean += weight * mean;
     (*sum).square += weight * mean * mean;
-    (*sum).variance += weight * bitcast<f32>(h.z);
-    (*sum).length += weight * unpack_length(h.w);
+    (*sum).variance += weight * history_variance(h);
+    (*sum).length += weight * history_length(h);
     (*sum).weight += weight;
 }
 
@@ -167,83 +171,6 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> Hist
 }
 #endif
 
-#ifdef GRADIENT
-struct Change {
-    ratio: vec4<f32>,
-    lambda: f32,
-}
-
-// Weighted sums over strata.
-struct Strata {
-    // ρ − 1, so that a ratio of exactly 1 stays so.
-    ratio: vec4<f32>,
-    weight: f32,
-    // Numerator and denominator of λ on the pixel's surface, and on any.
-    gradient: vec2<f32>,
-#ifdef ACROSS_SURFACES
-    around: vec2<f32>,
-#endif
-}
-
-fn add_stratum(
-    sum: ptr<function, Strata>,
-    stratum: vec2<i32>,
-    grid: vec2<f32>,
-    here: vec3<f32>,
-    normal: vec3<f32>,
-    depth: f32,
-) {
-    let clamped = clamp(stratum, vec2(0), vec2<i32>(frame.strata) - 1);
-    let record = textureLoad(samples, clamped, 0);
-    let s = site(record, clamped);
-    let exponent = geometric_exponent(normal, s.position - here, s.normal, PLANE * depth);
-    let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
-    let near = select(0.0, tent.x * tent.y, in_grid(stratum) && record.x != 0u);
-    let w = near * falloff(exponent);
-    let g = textureLoad(gradient, clamped, 0);
-    (*sum).gradient += w * g.xy;
-#ifdef ACROSS_SURFACES
-    (*sum).around += near * g.zw;
-#endif
-    (*sum).weight += w;
-#ifdef HISTORY_RATIO
-    (*sum).ratio += w * (textureLoad(ratio, clamped, 0) - 1.0);
-#endif
-}
-
-// What the strata around a pixel on its surface tell: the nearest four (bilinear), or the 4×4 where none of the four is on the
-// surface.
-//
-// With ACROSS_SURFACES, λ is not below what all paths around saw together, on whatever surface: a thin pillar has few of its own, and a change that
-// these missed (of indirect light, say, which one path in twenty finds) would stay for a whole history.
-fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Change {
-    let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
-    let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;
-    let base = vec2<i32>(floor(grid));
-    var sum = Strata();
-    for (var i = 0; i < 4; i++) {
-        add_stratum(&sum, base + vec2(i & 1, i >> 1u), grid, here, normal, depth);
-    }
-    // A loop of length 0 elsewhere, see `reproject`.
-    let searched = select(0, 16, seen && sum.weight <= 1e-4);
-    if searched > 0 {
-        sum = Strata();
-    }
-    for (var i = 0; i < searched; i++) {
-        add_stratum(&sum, base + vec2(i & 3, i >> 2u) - 1, grid, here, normal, depth);
-    }
-    let scale = select(0.0, 1.0 / sum.weight, sum.weight > 0.0);
-    var lambda = abs(sum.gradient.x) / max(sum.gradient.y, 1e-37);
-#ifdef ACROSS_SURFACES
-    let around = abs(sum.around.x) / max(sum.around.y, 1e-37);
-    // a + a³: the mean over paths that saw the change and paths that could not is too low, the more so the greater it is.
-    lambda = max(lambda, around + around * around * around);
-#endif
-    // λ may not exceed 1 by an ulp, as (1 − λ)^k would then be NaN.
-    return Change(1.0 + sum.ratio * scale, clamp(lambda - frame.dead_zone, 0.0, 1.0));
-}
-#endif
-
 // The part of a history's length that is kept. Above 0, as pow(0, 0) may be anything and a power of 0 is to shorten nothing.
 fn kept_part(lambda: f32) -> f32 {
     return pow(max(1.0 - lambda, 1e-9), frame.history_power);
@@ -270,14 +197,22 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // A miss is carried on like a surface, and what comes of it is not kept.
     let seen = depth > 0.0;
     let normal = unpack_normal(g.x);
+#ifdef HOST_LIGHT
+    let sample = unpack_rgb(host_sample(pixel, seen));
+#else
     let sample = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+#endif
     let l = luminance(sample);
     var history = History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
     if frame.continued != 0u {
 #ifdef STILL
         history = history_of(pixel);
 #else
+#ifdef HOST_MOTION
+        let m = unpack_motion(host_motion(pixel, depth).packed);
+#else
         let m = unpack_motion(textureLoad(motion, pixel, 0).xy);
+#endif
 #ifdef OBJECTS
         let here = textureLoad(object, pixel, 0).x;
 #else
@@ -290,13 +225,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var mean = l;
     var variance = 0.0;
     var length = 1.0;
-    var lambda = 0.0;
     if history.weight > 0.0 {
         var before = history.color;
         var mean_before = history.mean;
         var variance_before = history.variance;
         // A still image's history may be longer than the settings allow in one that moves.
         var kept = min(history.length, frame.max_history);
+        var lambda = 0.0;
 #ifdef GRADIENT
         let change = change_at(pixel, normal, depth, seen);
         lambda = change.lambda;
@@ -334,12 +269,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         mean = mean_before + alpha * deviation;
         variance = (1.0 - alpha) * (variance_before + alpha * deviation * deviation);
     }
-    let packed = pack_rgb(max(color, vec3(0.0)));
+    color = max(color, vec3(0.0));
 #ifdef FEEDBACK
-    let kept_history = vec4(bitcast<u32>(mean), 0u, bitcast<u32>(variance), pack_length_lambda(length, lambda));
-    textureStore(feedback_out, pixel, vec4(select(vec2(0u), packed, seen), 0u, 0u));
-#else
-    let kept_history = vec4(packed, bitcast<u32>(variance), pack_length_lambda(length, lambda));
+    textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(color), seen), 0u, 0u));
+    color = vec3(max(mean, 0.0));
 #endif
-    textureStore(history_out, pixel, select(vec4(0u), kept_history, seen));
+    let packed = pack_history(color, variance, length, rounding(id.xy, frame.index));
+    textureStore(history_out, pixel, vec4(select(vec2(0u), packed, seen), 0u, 0u));
 }

@@ -3,8 +3,11 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
-#import asvgf::packing::{unpack_rgb, unpack_normal, pack_tap}
-#import asvgf::history::unpack_length
+#import asvgf::history::{history_color, history_variance, history_length}
+#import asvgf::packing::{unpack_normal, pack_tap}
+#ifdef FEEDBACK
+#import asvgf::packing::unpack_rgb
+#endif
 #import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
@@ -28,20 +31,20 @@ fn weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<u32>) -> f
     return falloff(exponent);
 }
 
-fn mean_luminance(h: vec4<u32>) -> f32 {
+fn mean_luminance(h: vec2<u32>) -> f32 {
 #ifdef FEEDBACK
-    return bitcast<f32>(h.x);
+    return history_color(h).x;
 #else
-    return luminance(unpack_rgb(h.xy));
+    return luminance(history_color(h));
 #endif
 }
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
-    let h = textureLoad(history, pixel, 0);
+    let h = textureLoad(history, pixel, 0).xy;
     // 0 where nothing was hit.
-    let length = unpack_length(h.w);
+    let length = history_length(h);
     let short = length > 0.0 && length < SHORT;
     let g = textureLoad(guide, pixel, 0).xy;
     let normal = unpack_normal(g.x);
@@ -61,10 +64,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
         let there = weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
         let w = select(0.0, there, inside(tap));
-        let other = textureLoad(history, clamped, 0);
+        let other = textureLoad(history, clamped, 0).xy;
         let d = mean_luminance(other) - center;
         first += w * d;
-        second += w * (bitcast<f32>(other.z) + d * d);
+        second += w * (history_variance(other) + d * d);
         weights += w;
     }
     let mean = first / max(weights, 1e-6);
@@ -72,15 +75,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / max(length, 1.0));
 #ifdef VARIANCE_OF_MEAN
     // Bessel's correction while it matters, then the variance of a mean of n.
-    let own = bitcast<f32>(h.z) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
+    let own = history_variance(h) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
     let variance = mix(spatial, own, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0)) / max(length, 1.0);
 #else
-    let variance = select(bitcast<f32>(h.z), spatial, short);
+    let variance = select(history_variance(h), spatial, short);
 #endif
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback, pixel, 0).xy);
 #else
-    let color = unpack_rgb(h.xy);
+    let color = history_color(h);
 #endif
     textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(color, sqrt(variance)), length > 0.0), 0u, 0u));
 }

@@ -2,9 +2,22 @@
 
 #import asvgf::frame::{frame, inside, project, sample_point, world_position}
 #import asvgf::color::{is_finite, luminance}
-#import asvgf::packing::{unpack_rgb, filtered_color, unpack_motion, unpack_normal}
-#import asvgf::history::{unpack_length, unpack_lambda}
+#import asvgf::packing::{unpack_rgb, unpack_motion, unpack_normal}
 #import asvgf::random::hash
+#if VIEW == 0
+#import asvgf::history::filtered_color
+#endif
+#if VIEW >= 9
+#if VIEW <= 11
+#import asvgf::history::{history_length, history_variance}
+#endif
+#endif
+#if VIEW == 12
+#import asvgf::history::filtered_color
+#endif
+#ifdef GRADIENT
+#import asvgf::change::change_at
+#endif
 #if VIEW >= 17
 #if VIEW <= 18
 #import asvgf::strata::{is_sample_pixel, place_now, place_before, stratum_of}
@@ -74,12 +87,16 @@
 #if VIEW == 7
 #ifndef UNCHANGED
 // Gradient.
-@group(0) @binding(8) var gradient: texture_2d<f32>;
+@group(0) @binding(8) var gradient: texture_2d<u32>;
 #endif
 #endif
-#if VIEW >= 8
+#ifdef GRADIENT
+// λ, and α that depends on it.
+@group(0) @binding(5) var guide: texture_2d<u32>;
+#endif
+#if VIEW >= 9
 #if VIEW <= 11
-// λ, α, history length, variance.
+// α, history length, variance.
 @group(0) @binding(9) var history: texture_2d<u32>;
 #endif
 #endif
@@ -110,6 +127,18 @@ struct Show {
 }
 
 @group(0) @binding(11) var<uniform> show: Show;
+
+// λ as the temporal pass found it. Where there was no history to shorten, what it would have been.
+fn lambda_at(pixel: vec2<i32>) -> f32 {
+#ifdef GRADIENT
+    let g = textureLoad(guide, pixel, 0).xy;
+    let depth = bitcast<f32>(g.y);
+    if depth > 0.0 && frame.continued != 0u {
+        return change_at(pixel, unpack_normal(g.x), depth, true).lambda;
+    }
+#endif
+    return 0.0;
+}
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
 #if VIEW == 0
@@ -159,28 +188,28 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #ifdef UNCHANGED
     return vec3(0.0);
 #else
-    let g = textureLoad(gradient, pixel / 3, 0).xy;
+    let g = bitcast<vec2<f32>>(textureLoad(gradient, pixel / 3, 0).xy);
     return vec3(clamp(abs(g.x) / max(g.y, 1e-30) - frame.dead_zone, 0.0, 1.0));
 #endif
 #endif
 #if VIEW == 8
-    return vec3(unpack_lambda(textureLoad(history, pixel, 0).w));
+    return vec3(lambda_at(pixel));
 #endif
 #if VIEW == 9
-    let h = textureLoad(history, pixel, 0).w;
-    let n = unpack_length(h);
+    let n = history_length(textureLoad(history, pixel, 0).xy);
     let blended = max(1.0 / max(n, 1.0), frame.alpha);
 #ifdef BLEND_BY_LAMBDA
-    return vec3(max(blended, (1.0 - unpack_lambda(h)) * frame.alpha + unpack_lambda(h))) * select(0.0, 1.0, n > 0.0);
+    let lambda = lambda_at(pixel);
+    return vec3(max(blended, (1.0 - lambda) * frame.alpha + lambda)) * select(0.0, 1.0, n > 0.0);
 #else
     return vec3(blended * select(0.0, 1.0, n > 0.0));
 #endif
 #endif
 #if VIEW == 10
-    return vec3(unpack_length(textureLoad(history, pixel, 0).w));
+    return vec3(history_length(textureLoad(history, pixel, 0).xy));
 #endif
 #if VIEW == 11
-    return vec3(bitcast<f32>(textureLoad(history, pixel, 0).z));
+    return vec3(history_variance(textureLoad(history, pixel, 0).xy));
 #endif
 #if VIEW == 12
     let c = filtered_color(textureLoad(color, pixel, 0).xy);

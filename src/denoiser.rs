@@ -169,8 +169,9 @@ impl Denoiser {
     /// # Errors
     /// As [`Denoiser::prepare`].
     pub fn prepare_hosted(&self, traits: &HostTraits, target: TextureFormat) -> Result<(), Error> {
+        let traits = HostTraits { views: self.textures.keeps(), ..*traits };
         self.every_change().iter().try_for_each(|&changes| {
-            let plan = self.adapt(Plan::hosted(traits, &self.settings, changes, target));
+            let plan = self.adapt(Plan::hosted(&traits, &self.settings, changes, target));
             self.compile(&plan.steps, Traversal::default())
         })
     }

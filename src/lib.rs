@@ -104,9 +104,9 @@ pub use settings::*;
 pub use traced::Frame;
 pub use view::{View, ViewOptions};
 
-/// WGSL for a host's own shader, for [`Gradient::Reshade`]: `asvgf_surface(frame, guide, repeats, pixel)` returns an
+/// WGSL for a host's own shader, for [`Gradient::Reshade`]: `asvgf_surface(frame, guide, repeats, shifts, pixel)` returns an
 /// `AsvgfSurface`: which point to shade in a pixel, and which pixel and frame to seed the random numbers from. It declares no
-/// bindings; bind [`Reshade`]'s three where you like, as `var<uniform> …: AsvgfFrame` and two `texture_2d<u32>`.
+/// bindings; bind [`Reshade`]'s four where you like, as `var<uniform> …: AsvgfFrame` and three `texture_2d<u32>`.
 pub const RESHADE_WGSL: &str = include_str!("../shaders/host/reshade.wgsl");
 
 /// A host may record in any thread (in browsers GPU objects belong to one).

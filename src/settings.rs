@@ -2,7 +2,7 @@
 
 use crate::Error;
 
-/// Frames that a history can count.
+/// Frames that a history may count. Beyond, what rounding adds grows faster than what averaging takes away.
 pub(crate) const LONGEST_HISTORY: f32 = 32768.0;
 
 /// Everything that can be set. All of it may change between two frames; what changes the compiled shaders says so.

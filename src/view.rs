@@ -24,11 +24,11 @@ pub enum View {
     Motion = 6,
     /// λ of each stratum before interpolation, 0…1.
     Gradient = 7,
-    /// λ of each pixel, 0…1 in steps of 1/255, rounded up.
+    /// λ of each pixel, 0…1; where there was no history to shorten, what it would have been. A host's own is not shown.
     Lambda = 8,
     /// Weight of the new frame, 0…1.
     Alpha = 9,
-    /// History length in frames. Picture: white at [`ViewOptions::range`].
+    /// History length in frames; beyond 32 counted at random, right on average. Picture: white at [`ViewOptions::range`].
     HistoryLength = 10,
     /// Variance of a sample's demodulated luminance. Picture: logarithmic in its root.
     Variance = 11,

@@ -134,7 +134,8 @@ impl Renderer {
     /// One noisy sample of the light per pixel.
     pub fn shade(&self, encoder: &mut CommandEncoder, scene: &Buffer, reshade: &Reshade) {
         let buffers = [scene.as_entire_binding(), reshade.frame.as_entire_binding()];
-        let views = [&reshade.guide, &reshade.repeats, &self.radiance].map(BindingResource::TextureView);
+        let views =
+            [&reshade.guide, &reshade.repeats, &reshade.shifts, &self.radiance].map(BindingResource::TextureView);
         self.run(encoder, &self.shade, buffers.into_iter().chain(views));
     }
 

@@ -28,7 +28,8 @@ struct Scene {
 @group(0) @binding(1) var<uniform> asvgf: AsvgfFrame;
 @group(0) @binding(2) var guide: texture_2d<u32>;
 @group(0) @binding(3) var repeats: texture_2d<u32>;
-@group(0) @binding(4) var radiance_out: texture_storage_2d<rgba16float, write>;
+@group(0) @binding(4) var shifts: texture_2d<u32>;
+@group(0) @binding(5) var radiance_out: texture_storage_2d<rgba16float, write>;
 
 const FAR: f32 = 1e9;
 const PI: f32 = 3.14159265;
@@ -108,7 +109,7 @@ fn shade(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     // The only line that adaptive filtering asks for. From here on, nothing depends on the pixel.
-    let s = asvgf_surface(asvgf, guide, repeats, id.xy);
+    let s = asvgf_surface(asvgf, guide, repeats, shifts, id.xy);
     if !s.hit {
         textureStore(radiance_out, id.xy, vec4(0.3, 0.45, 0.7, 1.0));
         return;

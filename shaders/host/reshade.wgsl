@@ -42,13 +42,14 @@ fn asvgf_surface(
     frame: AsvgfFrame,
     guide: texture_2d<u32>,
     repeats: texture_2d<u32>,
+    shifts: texture_2d<u32>,
     pixel: vec2<u32>,
 ) -> AsvgfSurface {
     // Packed normal and depth: of this pixel, or of the one whose path is repeated.
     var seen = textureLoad(guide, pixel, 0).xy;
     let stratum = pixel / 3u;
     let within = pixel - 3u * stratum;
-    let which = textureLoad(repeats, vec2(2u * stratum.x, stratum.y), 0);
+    let which = textureLoad(repeats, stratum, 0);
     let again = which.x == within.y * 3u + within.x + 1u;
     var from_pixel = pixel;
     var shift = vec3(0.0);
@@ -56,7 +57,7 @@ fn asvgf_surface(
     if again {
         from_pixel = vec2(which.y & 0xffffu, which.y >> 16u);
         seen = which.zw;
-        shift = bitcast<vec3<f32>>(textureLoad(repeats, vec2(2u * stratum.x + 1u, stratum.y), 0).xyz);
+        shift = bitcast<vec3<f32>>(textureLoad(shifts, stratum, 0).xyz);
         camera = frame.previous;
     }
     // One formula for both, so that a surface at rest is shaded at the same point to the last bit.

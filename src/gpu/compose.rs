@@ -11,15 +11,18 @@ use wgpu::naga::Module;
 const SHARED: &[(&str, &str)] = &[
     ("color", include_str!("../../shaders/shared/color.wgsl")),
     ("packing", include_str!("../../shaders/shared/packing.wgsl")),
-    ("history", include_str!("../../shaders/shared/history.wgsl")),
     ("random", include_str!("../../shaders/shared/random.wgsl")),
+    ("history", include_str!("../../shaders/shared/history.wgsl")),
     ("frame", include_str!("../../shaders/shared/frame.wgsl")),
     ("counts", include_str!("../../shaders/shared/counts.wgsl")),
     ("strata", include_str!("../../shaders/shared/strata.wgsl")),
     ("edge_stop", include_str!("../../shaders/shared/edge_stop.wgsl")),
+    ("host_motion", include_str!("../../shaders/shared/host_motion.wgsl")),
+    ("host_light", include_str!("../../shaders/shared/host_light.wgsl")),
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
     ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
+    ("change", include_str!("../../shaders/shared/change.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("scene", include_str!("../../shaders/shared/scene.wgsl")),
     #[cfg(feature = "path-tracer")]

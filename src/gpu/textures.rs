@@ -22,6 +22,11 @@ impl Textures {
         Self { keep, ..Default::default() }
     }
 
+    /// Whether every image is kept until the next frame.
+    pub fn keeps(&self) -> bool {
+        self.keep
+    }
+
     /// Whether a frame that begins now finds all of the last one that a plan asks for.
     pub fn has_all_before(&self, plan: &Plan) -> bool {
         self.memory.has_all_before(&plan.steps)
@@ -44,8 +49,8 @@ impl Textures {
     ) {
         let needed = needed(&images);
         let last = to == plan.steps.len();
-        let over = |i: usize, slot: Slot| last && plan.is_over(from + i, slot, &needed, self.keep);
-        self.memory.place(&plan.steps[from..to], over);
+        let over = |step: usize, slot: Slot| last && plan.is_over(step, slot, &needed, self.keep);
+        self.memory.place(&plan.steps[..to], from, over);
         if last {
             self.memory.end(needed);
             if images != self.images {
@@ -93,11 +98,11 @@ impl Textures {
 
 fn suits(view: &TextureView, kind: Kind, size: [u32; 2]) -> bool {
     let texture = view.texture();
-    texture.format() == kind.format && [texture.width(), texture.height()] == kind.extent(size)
+    texture.format() == kind.format && [texture.width(), texture.height()] == kind.grid.extent(size)
 }
 
 fn create(device: &Device, size: [u32; 2], kind: Kind, number: usize) -> TextureView {
-    let [width, height] = kind.extent(size);
+    let [width, height] = kind.grid.extent(size);
     let label = format!("asvgf texture {number}");
     device
         .create_texture(&TextureDescriptor {

@@ -32,7 +32,8 @@ pub struct Surfaces<'a> {
     pub normal: &'a TextureView,
     /// Where the surface point was in the previous frame's image less where it is, in pixels, x right, y down, without either
     /// frame's jitter: first two channels of `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. NaN or infinite: it was
-    /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether it is right.
+    /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether it is right. It and `previous_depth` may be read by what
+    /// [`Denoiser::denoise`](crate::Denoiser::denoise) records: leave them as they are until then.
     pub motion: &'a TextureView,
     /// The linear depth that the surface point had in the previous frame's camera, in the formats of `depth`. Without it points are
     /// taken as not moving in depth, which holds for all that only the camera moves. With re-shading, points that move are placed by
@@ -50,7 +51,7 @@ pub struct Surfaces<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Shading<'a> {
     /// Noisy linear radiance, Rec. 709, ≥ 0 (what is above 10¹⁵ counts as that): `rgba16float`, `rgba32float`, `rg11b10ufloat` or `rgb9e5ufloat`. Where nothing was
-    /// hit it is shown as it is. It may be the target too.
+    /// hit it is shown as it is. It may be the target too (it is copied then).
     pub radiance: &'a TextureView,
     /// Linear reflectance at the visible surface, 0…1: `rgba8unorm` and `bgra8unorm` (`-srgb` too), `rgb10a2unorm`, and the formats
     /// of `radiance`. Radiance is divided by it before filtering (at least by 10⁻³) and the result multiplied, so that textures stay
@@ -131,7 +132,7 @@ pub struct Lambda<'a> {
 /// What a host needs to repeat one of last frame's paths in each 3×3 pixels, for
 /// [`Gradient::Reshade`](crate::Gradient::Reshade).
 ///
-/// Put [`RESHADE_WGSL`](crate::RESHADE_WGSL) before the shader that starts the paths, bind these three, and shade what
+/// Put [`RESHADE_WGSL`](crate::RESHADE_WGSL) before the shader that starts the paths, bind these four, and shade what
 /// `asvgf_surface` returns, seeded as it says. Nothing else is asked: the pixels that repeat a path are ordinary ones. Nothing
 /// repeats in a first frame or after a restart, and where [`Surfaces::changes`] says that the scene has not changed there is none of
 /// these.
@@ -142,9 +143,10 @@ pub struct Reshade {
     /// What each pixel sees: `rg32uint`, normal (three signed 10-bit numbers) and linear depth (f32 bits), 0 where nothing was hit.
     /// Paths start from these, so that one that is repeated starts from just the same point. Valid as long as `repeats`.
     pub guide: TextureView,
-    /// One pair of `rgba32uint` texels for each stratum of 3×3 pixels, 2·⌈width/3⌉ × ⌈height/3⌉: place of the pixel that repeats a
-    /// path (1…9 row by row, 0 for none), the last frame's pixel whose path it is (x | y << 16), that pixel's packed normal and its
-    /// linear depth (f32 bits); then how far its surface has moved since (world space, f32 bits). Valid until the denoiser's next
-    /// frame but one.
+    /// One `rgba32uint` texel for each stratum of 3×3 pixels, ⌈width/3⌉ × ⌈height/3⌉: place of the pixel that repeats a path (1…9
+    /// row by row, 0 for none), the last frame's pixel whose path it is (x | y << 16), that pixel's packed normal and its linear
+    /// depth (f32 bits). Valid for what is recorded before [`Denoiser::denoise`](crate::Denoiser::denoise), which writes over it.
     pub repeats: TextureView,
+    /// As `repeats`: how far the surface of that path has moved since (world space, f32 bits).
+    pub shifts: TextureView,
 }

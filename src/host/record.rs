@@ -9,7 +9,7 @@ use crate::gpu::timing::FrameQueries;
 use crate::passes::Pass;
 use crate::plan::{Changes, Feature, HostTraits, Image, Plan, Slot, Traversal};
 use crate::settings::{Gradient, Mode};
-use wgpu::{BindingResource, Buffer, CommandEncoder, Device, TextureFormat};
+use wgpu::{BindingResource, Buffer, CommandEncoder, Device, TextureFormat, TextureView};
 
 /// A frame between its two calls.
 #[derive(Debug)]
@@ -18,8 +18,16 @@ pub(crate) struct Begun {
     changes: Changes,
     uniform: Buffer,
     traits: HostTraits,
+    motion: Motion,
     counts: Option<Buffer>,
     queries: Option<FrameQueries>,
+}
+
+/// What of a frame's surfaces may be read in its second half.
+#[derive(Debug)]
+struct Motion {
+    motion: TextureView,
+    previous_depth: Option<TextureView>,
 }
 
 /// A host's views by the names of their bindings.
@@ -46,6 +54,17 @@ impl<'a> Shading<'a> {
             "current" => self.pairs.map(|p| p.current),
             "previous" => self.pairs.map(|p| p.previous),
             "external_lambda" => self.lambda.map(|l| l.view),
+            _ => None,
+        };
+        view.map(BindingResource::TextureView)
+    }
+}
+
+impl Motion {
+    fn resource(&self, name: &str) -> Option<BindingResource<'_>> {
+        let view = match name {
+            "motion" => Some(&self.motion),
+            "previous_depth" => self.previous_depth.as_ref(),
             _ => None,
         };
         view.map(BindingResource::TextureView)
@@ -84,7 +103,8 @@ impl Denoiser {
             return Err(Error::GradientSource { asked: Gradient::BlinnPhong, reason });
         }
         let camera = surfaces.camera.uniform(self.size)?;
-        let mut traits = HostTraits { diagnostics: self.counters.is_some(), ..Default::default() };
+        let (diagnostics, views) = (self.counters.is_some(), self.textures.keeps());
+        let mut traits = HostTraits { diagnostics, views, ..Default::default() };
         views::surfaces(&mut traits, surfaces, self.size)?;
         // What the light's views will have changes neither this half nor which of its images outlive the frame.
         let all = |changes| Plan::hosted(&traits, &self.settings, changes, TextureFormat::Rgba32Float);
@@ -118,13 +138,14 @@ impl Denoiser {
         let resources = Resources { counts: counts.as_ref(), ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
         let image = |image| self.textures.view(Slot::Now(image)).cloned();
-        let reshade = match (image(Image::Guide), image(Image::Repeats)) {
-            (Some(guide), Some(repeats)) if plan.features.has(Feature::Reshade) => {
-                Some(Reshade { frame: uniform.clone(), guide, repeats })
+        let reshade = match (image(Image::Guide), image(Image::Repeats), image(Image::Shifts)) {
+            (Some(guide), Some(repeats), Some(shifts)) if plan.features.has(Feature::Reshade) => {
+                Some(Reshade { frame: uniform.clone(), guide, repeats, shifts })
             }
             _ => None,
         };
-        self.begun = Some(Begun { moment, changes, uniform, traits, counts, queries });
+        let motion = Motion { motion: surfaces.motion.clone(), previous_depth: surfaces.previous_depth.cloned() };
+        self.begun = Some(Begun { moment, changes, uniform, traits, motion, counts, queries });
         Ok(reshade)
     }
 
@@ -162,7 +183,7 @@ impl Denoiser {
         let images = Plan::hosted(&traits, &self.settings, Changes::ANY, format).images();
         let steps = &plan.steps[plan.surface_steps()..];
         self.compile(steps, Traversal::default())?;
-        let Some(Begun { mut moment, mut uniform, counts, mut queries, .. }) = self.begun.take() else {
+        let Some(Begun { mut moment, mut uniform, motion, counts, mut queries, .. }) = self.begun.take() else {
             return Err(Error::NotBegun);
         };
         let lost = !self.textures.has_all_before(&plan);
@@ -174,7 +195,7 @@ impl Denoiser {
             moment.lambda_block = block;
             uniform = self.frame_uniform(device, &moment);
         }
-        let host = |name: &str| shading.resource(name);
+        let host = |name: &str| shading.resource(name).or_else(|| motion.resource(name));
         let target = Some(shading.target);
         let resources = Resources { counts: counts.as_ref(), target, ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;

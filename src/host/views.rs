@@ -127,6 +127,8 @@ pub(super) fn shading(
     traits.albedo = given.albedo.is_some();
     traits.emission = given.emission.is_some();
     traits.demodulated = given.demodulated;
+    let light = [Some(given.radiance), given.albedo, given.emission];
+    traits.in_target = light.into_iter().flatten().any(|view| view.texture() == given.target.texture());
     if settings.mode != Mode::Denoise {
         return Ok(());
     }

@@ -6,8 +6,16 @@ use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 const FEATURES: &[Feature] =
     &[Feature::LuminancePairs, Feature::StratumPairs, Feature::Albedo, Feature::Modulated, Feature::Diagnostics];
 
+/// Where the albedo is read, if pairs are divided by it.
+const DIVIDED: [Feature; 2] = [Feature::Albedo, Feature::Modulated];
+
 pub(crate) fn step(features: Features) -> Step {
-    let features = features.and(Features::of(FEATURES));
+    let mut known = Features::of(FEATURES);
+    if DIVIDED.iter().all(|&feature| features.has(feature)) {
+        known = known.with(Feature::HostLight);
+    }
+    let features = features.and(known);
+    let albedo = if features.has(Feature::HostLight) { Slot::Host } else { Slot::Now(Image::Albedo) };
     Step {
         pass: Pass::IngestPairs,
         features,
@@ -19,7 +27,7 @@ pub(crate) fn step(features: Features) -> Step {
                 ("guide", Slot::Now(Image::Guide), &[]),
                 ("current", Slot::Host, &[]),
                 ("previous", Slot::Host, &[]),
-                ("albedo", Slot::Now(Image::Albedo), &[Feature::Albedo, Feature::Modulated]),
+                ("albedo", albedo, &DIVIDED),
                 ("samples_out", Slot::Now(Image::Samples), &[]),
                 ("pair_now_out", Slot::Now(Image::PairNow), &[]),
                 ("pair_before_out", Slot::Now(Image::PairBefore), &[]),

@@ -8,30 +8,30 @@ const FEATURES: &[Feature] = &[
     Feature::MappedNormals,
     Feature::PackedNormals,
     Feature::PreviousDepth,
+    Feature::HostMotion,
     Feature::Objects,
     Feature::FloatObjects,
     Feature::Diagnostics,
 ];
 
 pub(crate) fn step(features: Features) -> Step {
-    let features = features.and(Features::of(FEATURES));
-    Step {
-        pass: Pass::IngestSurface,
-        features,
-        grid: Grid::Pixels,
-        iteration: 0,
-        bindings: bindings(
-            features,
-            [
-                ("depth", Slot::Host, &[]),
-                ("normal", Slot::Host, &[]),
-                ("motion", Slot::Host, &[]),
-                ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
-                ("instance", Slot::Host, &[Feature::Objects]),
-                ("guide_out", Slot::Now(Image::Guide), &[]),
-                ("motion_out", Slot::Now(Image::Motion), &[]),
-                ("object_out", Slot::Now(Image::Object), &[Feature::Objects]),
-            ],
-        ),
+    let mut features = features.and(Features::of(FEATURES));
+    if features.has(Feature::HostMotion) {
+        features = features.without(Feature::PreviousDepth);
     }
+    let mut bindings = bindings(
+        features,
+        [
+            ("depth", Slot::Host, &[]),
+            ("normal", Slot::Host, &[]),
+            ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
+            ("instance", Slot::Host, &[Feature::Objects]),
+            ("guide_out", Slot::Now(Image::Guide), &[]),
+            ("object_out", Slot::Now(Image::Object), &[Feature::Objects]),
+        ],
+    );
+    if !features.has(Feature::HostMotion) {
+        bindings.extend([("motion", Slot::Host), ("motion_out", Slot::Now(Image::Motion))]);
+    }
+    Step { pass: Pass::IngestSurface, features, grid: Grid::Pixels, iteration: 0, bindings }
 }

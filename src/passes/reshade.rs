@@ -18,6 +18,7 @@ pub(crate) fn step(features: Features) -> Step {
                 ("motion", Slot::Host, &[]),
                 ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
                 ("repeats_out", Slot::Now(Image::Repeats), &[]),
+                ("shifts_out", Slot::Now(Image::Shifts), &[]),
             ],
         ),
     }

@@ -11,26 +11,34 @@ const FEATURES: &[Feature] = &[
     Feature::DirectEmission,
     Feature::Accumulate,
     Feature::TargetF16,
+    Feature::HostLight,
 ];
 
 /// `color` is where the filtered colour is, if anything was filtered.
 pub(crate) fn step(features: Features, color: Option<Image>) -> Step {
-    let features = features.and(Features::of(FEATURES));
+    let mut known = Features::of(FEATURES);
+    if features.has(Feature::HostLight) {
+        known = known.with(Feature::Modulated);
+    }
+    let features = features.and(known);
+    // A host's own image, or its copy.
+    let source = |image| if features.has(Feature::HostLight) { Slot::Host } else { Slot::Now(image) };
     let mut bindings = bindings(
         features,
         [
-            ("radiance", Slot::Now(Image::Radiance), &[Feature::Background]),
-            ("guide", Slot::Now(Image::Guide), &[Feature::Background]),
-            ("albedo", Slot::Now(Image::Albedo), &[Feature::Albedo]),
-            ("emission", Slot::Now(Image::Emission), &[Feature::DirectEmission]),
+            ("albedo", source(Image::Albedo), &[Feature::Albedo]),
+            ("emission", source(Image::Emission), &[Feature::DirectEmission]),
             ("sum_previous", Slot::Before(Image::Sum), &[Feature::Accumulate]),
             ("sum_out", Slot::Now(Image::Sum), &[Feature::Accumulate]),
             ("target_out", Slot::Target, &[]),
         ],
     );
-    bindings.push(match color {
-        Some(image) => ("color", Slot::Now(image)),
-        None => ("radiance", Slot::Now(Image::Radiance)),
-    });
+    if features.has(Feature::HostLight) || features.has(Feature::Background) {
+        bindings.push(("guide", Slot::Now(Image::Guide)));
+    }
+    if color.is_none() || features.has(Feature::Background) {
+        bindings.push(("radiance", source(Image::Radiance)));
+    }
+    bindings.extend(color.map(|image| ("color", Slot::Now(image))));
     Step { pass: Pass::Resolve, features, grid: Grid::Pixels, iteration: 0, bindings }
 }

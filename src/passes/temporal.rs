@@ -14,27 +14,43 @@ const FEATURES: &[Feature] = &[
     Feature::Confidence,
     Feature::BlendByLambda,
     Feature::Feedback,
+    Feature::HostMotion,
+    Feature::HostLight,
 ];
+
+/// What a host's radiance is freed of where it is read.
+const MODULATION: [Feature; 3] = [Feature::Modulated, Feature::Albedo, Feature::DirectEmission];
 
 /// What finds the surface in the last frame.
 const REPROJECTION: [&str; 4] = ["guide_previous", "motion", "object", "object_previous"];
 
 /// `gradient` is where the filtered gradient is, if there is one.
-pub(crate) fn step(features: Features, gradient: Option<Image>) -> Step {
-    let mut features = features.and(Features::of(FEATURES));
+pub(crate) fn step(given: Features, gradient: Option<Image>) -> Step {
+    let mut features = given.and(Features::of(FEATURES));
     if features.has(Feature::Still) {
-        features = features.without(Feature::Objects);
+        features = features.without(Feature::Objects).without(Feature::HostMotion);
     }
+    if features.has(Feature::HostMotion) {
+        features = features.or(given.and(Features::of(&[Feature::PreviousDepth])));
+    }
+    if features.has(Feature::HostLight) && given.has(Feature::Modulated) {
+        features = features.or(given.and(Features::of(&MODULATION)));
+    }
+    // A host's own image, or its copy.
+    let source = |direct, image| if features.has(direct) { Slot::Host } else { Slot::Now(image) };
     let gradient = gradient.unwrap_or(Image::Gradient(0));
     let mut bindings = bindings(
         features,
         [
             ("guide", Slot::Now(Image::Guide), &[]),
             ("guide_previous", Slot::Before(Image::Guide), &[]),
-            ("motion", Slot::Now(Image::Motion), &[]),
+            ("motion", source(Feature::HostMotion, Image::Motion), &[]),
+            ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
             ("object", Slot::Now(Image::Object), &[Feature::Objects]),
             ("object_previous", Slot::Before(Image::Object), &[Feature::Objects]),
-            ("radiance", Slot::Now(Image::Radiance), &[]),
+            ("radiance", source(Feature::HostLight, Image::Radiance), &[]),
+            ("albedo", Slot::Host, &[Feature::Albedo]),
+            ("emission", Slot::Host, &[Feature::DirectEmission]),
             ("history_previous", Slot::Before(Image::History), &[]),
             ("feedback_previous", Slot::Before(Image::Feedback), &[Feature::Feedback]),
             ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),

@@ -21,8 +21,13 @@ pub(crate) fn step(
         (View::Denoised | View::NonFinite, None) => return missing("nothing is filtered in this mode"),
         _ => Slot::Target,
     };
+    // α depends on λ only where the blend does.
+    let needs_lambda = view == View::Lambda || view == View::Alpha && plan.features.has(Feature::BlendByLambda);
+    if needs_lambda && plan.features.has(Feature::ExternalLambda) {
+        return missing("λ is the host's own image");
+    }
     let gradient = match (view, plan.gradient) {
-        (View::Gradient, Some(image)) => Slot::Now(image),
+        (View::Gradient | View::Lambda | View::Alpha, Some(image)) => Slot::Now(image),
         (View::Gradient, None) if !plan.features.has(Feature::Unchanged) => return missing("the gradient is off"),
         _ => Slot::Target,
     };
@@ -68,6 +73,8 @@ pub(crate) fn step(
         Feature::Background,
         Feature::BlendByLambda,
         Feature::Pairs,
+        Feature::Gradient,
+        Feature::AcrossSurfaces,
     ];
     let mut features = plan.features.and(Features::of(&known));
     if !matches!(view, View::Denoised | View::Noisy | View::Emission) {
@@ -90,6 +97,9 @@ pub(crate) fn step(
     }
     if view != View::Alpha {
         features = features.without(Feature::BlendByLambda);
+    }
+    if !needs_lambda {
+        features = features.without(Feature::Gradient).without(Feature::AcrossSurfaces);
     }
     match target {
         TextureFormat::Rgba8Unorm => features = features.with(Feature::TargetPicture),
@@ -125,7 +135,10 @@ pub(crate) fn step(
         View::MotionError => &["guide", "motion"],
         View::Gradient if features.has(Feature::Unchanged) => &[],
         View::Gradient => &["gradient"],
-        View::Lambda | View::Alpha | View::HistoryLength | View::Variance => &["history"],
+        View::Lambda if features.has(Feature::Gradient) => &["guide", "samples", "gradient"],
+        View::Lambda => &[],
+        View::Alpha if features.has(Feature::Gradient) => &["history", "guide", "samples", "gradient"],
+        View::Alpha | View::HistoryLength | View::Variance => &["history"],
         View::NonFinite => &["color"],
         View::Emission => &["emission"],
         View::Object => &["object"],
@@ -135,7 +148,7 @@ pub(crate) fn step(
     let used = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name));
     let bindings: Vec<_> = used.collect();
     if bindings.iter().any(|(_, slot)| matches!(slot, Slot::Now(image) if !holds(*image))) {
-        return missing("its texture was given to another image: set DenoiserDescriptor::views");
+        return missing("its image was not kept: set DenoiserDescriptor::views");
     }
     Ok(Step { pass: Pass::View, features, grid: Grid::Pixels, iteration: view as u32, bindings })
 }

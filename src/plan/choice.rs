@@ -54,6 +54,8 @@ pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes)
     let pairs = denoise && settings.filter.gradient == settings::Gradient::Pairs;
     let lambda = denoise && settings.filter.gradient == settings::Gradient::Lambda;
     let modulated = !traits.demodulated && (traits.albedo || traits.emission);
+    let reshade = denoise && settings.filter.gradient == settings::Gradient::Reshade;
+    let [copied_motion, copied_light] = why_copies(traits, reshade);
     let rows = [
         (
             OctahedralNormals,
@@ -63,6 +65,8 @@ pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes)
         (MappedNormals, traits.mapped_normals, ["normals are mapped to 0…1", "normals are signed"]),
         (PackedNormals, traits.packed_normals, ["normals are one word", "normals have channels"]),
         (PreviousDepth, traits.previous_depth, ["previous depths are given", "no previous depth is given"]),
+        (HostMotion, copied_motion.is_none(), ["it is read once", copied_motion.unwrap_or_default()]),
+        (HostLight, copied_light.is_none(), ["it is read as it came", copied_light.unwrap_or_default()]),
         (Objects, traits.instances, OBJECTS),
         (FloatObjects, traits.instances && traits.float_instances, ["instances are floats", "no instance is a float"]),
         (Albedo, traits.albedo, ["an albedo is given", "no albedo is given: textures are filtered with the light"]),
@@ -77,6 +81,17 @@ pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes)
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
     with_filter(&rows, pairs && traits.pairs_in_place, settings, changes)
+}
+
+/// Why a host's motion is copied, if it is, and why its light.
+fn why_copies(traits: &HostTraits, reshade: bool) -> [Option<&'static str>; 2] {
+    let reasons = [
+        (reshade, "a copy is kept: repeated paths need it, or the last frame's"),
+        (traits.diagnostics, "a copy is kept: what is cleaned is counted once"),
+        (traits.views, "a copy is kept for views"),
+    ];
+    let why = reasons.into_iter().find(|(holds, _)| *holds).map(|(_, why)| why);
+    [why, why.or(traits.in_target.then_some("a copy is kept: a shader cannot read what it writes"))]
 }
 
 /// The rows, and what the filter asks for where there is one.

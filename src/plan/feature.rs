@@ -98,6 +98,10 @@ features! {
     PackedNormals,
     /// The host knows the depth that each point had.
     PreviousDepth,
+    /// The host's motion is read where it is needed, instead of a copy.
+    HostMotion,
+    /// The host's radiance, albedo and emission are read where they are needed, instead of copies.
+    HostLight,
     /// The host's objects have floats for numbers.
     FloatObjects,
     /// The host's radiance is still multiplied by the albedo and has the emission in it.
@@ -167,6 +171,12 @@ impl Features {
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
+    }
+
+    /// What is in either set.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
     }
 
     /// The features in the set.

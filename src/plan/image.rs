@@ -20,7 +20,7 @@ pub enum Image {
     Albedo,
     /// Emission towards the camera.
     Emission,
-    /// Accumulated colour, variance, history length, λ.
+    /// Accumulated colour, variance, history length.
     History,
     /// The history's colour, where it comes from the spatial filter.
     Feedback,
@@ -28,8 +28,10 @@ pub enum Image {
     Color(u8),
     /// Records of the strata.
     Samples,
-    /// Of each stratum what the host needs to repeat its path: two texels.
+    /// Of each stratum which path the host is to repeat.
     Repeats,
+    /// How far that path's surface has moved since.
+    Shifts,
     /// Demodulated radiance now of the pair that the host made for the stratum.
     PairNow,
     /// The radiance before of that pair.
@@ -38,9 +40,9 @@ pub enum Image {
     PairsNow(u8),
     /// Radiances before.
     PairsBefore(u8),
-    /// Numerator and denominator of λ on the stratum's surface, and on any; two take turns.
+    /// Numerator and denominator of λ on the stratum's surface, and on any, as bits of f32; two take turns.
     Gradient(u8),
-    /// What the history is multiplied with.
+    /// What the history is multiplied with, as bits of f32.
     Ratio,
     /// Sum over frames and their number.
     Sum,
@@ -64,15 +66,20 @@ impl Image {
             | Self::Motion
             | Self::Radiance
             | Self::Emission
+            | Self::History
             | Self::Feedback
             | Self::Color(_)
             | Self::PairNow
             | Self::PairBefore => TextureFormat::Rg32Uint,
-            Self::History | Self::Samples | Self::Repeats | Self::PairsNow(_) | Self::PairsBefore(_) => {
-                TextureFormat::Rgba32Uint
-            }
+            Self::Samples
+            | Self::Repeats
+            | Self::Shifts
+            | Self::PairsNow(_)
+            | Self::PairsBefore(_)
+            | Self::Gradient(_)
+            | Self::Ratio => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
-            Self::Gradient(_) | Self::Ratio | Self::Sum => TextureFormat::Rgba32Float,
+            Self::Sum => TextureFormat::Rgba32Float,
         }
     }
 
@@ -81,6 +88,7 @@ impl Image {
         match self {
             Self::Samples
             | Self::Repeats
+            | Self::Shifts
             | Self::PairNow
             | Self::PairBefore
             | Self::PairsNow(_)
@@ -89,11 +97,6 @@ impl Image {
             | Self::Ratio => Grid::Strata,
             _ => Grid::Pixels,
         }
-    }
-
-    /// Texels side by side for each pixel or stratum.
-    pub fn texels(self) -> u32 {
-        if self == Self::Repeats { 2 } else { 1 }
     }
 
     /// Its name, with the number of those that take turns.
@@ -112,6 +115,7 @@ impl Image {
             Self::Color(_) => "color 1",
             Self::Samples => "samples",
             Self::Repeats => "repeats",
+            Self::Shifts => "shifts",
             Self::PairNow => "pair now",
             Self::PairBefore => "pair before",
             Self::PairsNow(0) => "pairs now 0",

@@ -13,24 +13,16 @@ use wgpu::TextureFormat;
 pub(crate) struct Kind {
     pub format: TextureFormat,
     pub grid: Grid,
-    /// Texels side by side for each pixel or stratum.
-    pub texels: u32,
 }
 
 impl Kind {
     fn of(image: Image) -> Self {
-        Self { format: image.format(), grid: image.grid(), texels: image.texels() }
-    }
-
-    /// Texels in each direction, for a picture of this size.
-    pub fn extent(self, size: [u32; 2]) -> [u32; 2] {
-        let [width, height] = self.grid.extent(size);
-        [self.texels * width, height]
+        Self { format: image.format(), grid: image.grid() }
     }
 
     /// Bytes for a picture of this size.
     pub fn bytes(self, size: [u32; 2]) -> u64 {
-        let [width, height] = self.extent(size).map(u64::from);
+        let [width, height] = self.grid.extent(size).map(u64::from);
         width * height * u64::from(self.format.block_copy_size(None).unwrap_or(0))
     }
 }
@@ -84,11 +76,11 @@ impl Memory {
         self.complete = false;
     }
 
-    /// Finds textures for the images of `steps`. What `over` says to have been used for the last time after one of them, by its
-    /// number, is free for others then.
-    pub fn place(&mut self, steps: &[Step], over: impl Fn(usize, Slot) -> bool) {
+    /// Finds textures for the images of `steps` from number `from` on; the others have theirs. What `over` says to have been used for
+    /// the last time after one of them, by its number, is free for later ones then.
+    pub fn place(&mut self, steps: &[Step], from: usize, over: impl Fn(usize, Slot) -> bool) {
         for (i, step) in steps.iter().enumerate() {
-            for &(_, slot) in &step.bindings {
+            for &(_, slot) in step.bindings.iter().filter(|_| i >= from) {
                 match slot {
                     Slot::Now(image) if !self.now.contains_key(&image) => {
                         let texture = self.take(Kind::of(image));
@@ -190,7 +182,9 @@ impl Plan {
         // The first frame has no last one; from the second on all are alike.
         for _ in 0..2 {
             memory.begin();
-            memory.place(&self.steps, |step, slot| self.is_over(step, slot, &needed, views));
+            let begun = self.surface_steps();
+            memory.place(&self.steps[..begun], 0, |_, _| false);
+            memory.place(&self.steps, begun, |step, slot| self.is_over(step, slot, &needed, views));
             memory.end(needed.clone());
         }
         memory.textures().iter().copied().flatten().collect()
@@ -253,7 +247,9 @@ mod tests {
             );
             let before = written.clone();
             memory.begin();
-            memory.place(&plan.steps, |step, slot| plan.is_over(step, slot, &needed(&most.images()), views));
+            let begun = plan.surface_steps();
+            memory.place(&plan.steps[..begun], 0, |_, _| false);
+            memory.place(&plan.steps, begun, |step, slot| plan.is_over(step, slot, &needed(&most.images()), views));
             memory.end(needed(&most.images()));
             for step in &plan.steps {
                 let (outputs, inputs): (Vec<_>, Vec<_>) =
@@ -311,6 +307,32 @@ mod tests {
             let [any, camera, still] = [&same[0], &same[1], &same[2]];
             follow(&[any, still, still, any, camera, camera, any, any, still, camera, any], false);
         }
+    }
+
+    /// docs/leaving-out.md has these: images per pixel and, of strata, per nine.
+    #[test]
+    fn frames_take_no_more_than_the_images_that_are_alive_at_once() {
+        // Whole strata.
+        let size = [300, 300];
+        let bytes = |gradient, traits: HostTraits| {
+            let filter = FilterSettings { gradient, ..Default::default() };
+            let settings = Settings { filter, ..Settings::adaptive() };
+            let plan = Plan::hosted(&traits, &settings, Changes::ANY, TextureFormat::Rgba32Float);
+            plan.bytes(size, false) as f64 / f64::from(size[0] * size[1])
+        };
+        let alone = HostTraits::default();
+        let all = HostTraits { albedo: true, emission: true, ..alone };
+        // Guide and history, each now and before.
+        assert_eq!(bytes(Gradient::Off, alone), 32.0);
+        assert_eq!(bytes(Gradient::Off, all), 32.0);
+        assert_eq!(bytes(Gradient::Lambda, alone), 32.0);
+        // And the strata's records, their pairs, which two by two take turns, and the host's pairs of half the size.
+        let strata = 5.0 * 16.0 / 9.0;
+        assert_eq!(bytes(Gradient::Pairs, alone), 32.0 + strata + 16.0 / 9.0);
+        // And motion and radiance; the last frame's gives way to the history.
+        assert_eq!(bytes(Gradient::Reshade, alone), 48.0 + strata);
+        // And the albedo of both frames, and the emission.
+        assert_eq!(bytes(Gradient::Reshade, all), 72.0 + strata);
     }
 
     #[test]

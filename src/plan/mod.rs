@@ -113,7 +113,9 @@ impl Plan {
             plan.steps.push(passes::gradient_sample::step(features));
             plan.steps.push(passes::reshade::step(features));
         }
-        plan.steps.push(passes::ingest_radiance::step(features));
+        if !features.has(Feature::HostLight) {
+            plan.steps.push(passes::ingest_radiance::step(features));
+        }
         if features.has(Feature::Pairs) {
             plan.steps.push(passes::ingest_pairs::step(features));
         }
@@ -136,9 +138,11 @@ impl Plan {
         has(Feature::Still) && has(Feature::Unchanged) && !has(Feature::BlendByLambda)
     }
 
-    /// How many of the steps need no radiance: those that [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) records.
+    /// How many of the steps are those of a host's surfaces, which [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) records.
+    /// Until the others are known, nothing that they may need is written over.
     pub fn surface_steps(&self) -> usize {
-        self.steps.iter().take_while(|step| step.pass != Pass::IngestRadiance).count()
+        let surface = |pass| matches!(pass, Pass::IngestSurface | Pass::GradientSample | Pass::Reshade);
+        self.steps.iter().take_while(|step| surface(step.pass)).count()
     }
 
     /// The passes from noisy radiance to filtered colour, if the mode filters.

@@ -74,6 +74,10 @@ pub struct HostTraits {
     pub confidence: bool,
     /// Input that has to be cleaned is counted.
     pub diagnostics: bool,
+    /// What a frame leaves is to be shown, see [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+    pub views: bool,
+    /// Some of the light comes in the target's own texture.
+    pub in_target: bool,
 }
 
 /// How rays find triangles: numbers that the shaders which follow rays are compiled with.

@@ -94,10 +94,7 @@ impl Bench {
     fn texture(&self, step: &Step, name: &str, slot: Slot) -> Texture {
         let has = |feature| step.features.has(feature);
         let (format, [width, height]) = match slot {
-            Slot::Now(image) | Slot::Before(image) => {
-                let [width, height] = image.grid().extent(self.size);
-                (image.format(), [image.texels() * width, height])
-            }
+            Slot::Now(image) | Slot::Before(image) => (image.format(), image.grid().extent(self.size)),
             Slot::Target if has(Feature::TargetF16) => (TextureFormat::Rgba16Float, self.size),
             Slot::Target => (TextureFormat::Rgba32Float, self.size),
             // The widest that a host may hand in.

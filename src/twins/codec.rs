@@ -40,6 +40,88 @@ pub(super) fn unpack_unsigned(bits: u32) -> f64 {
     }
 }
 
+/// What a pixel keeps from frame to frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Kept {
+    pub color: V,
+    pub variance: f64,
+    pub length: f64,
+}
+
+/// The power of two that the history's colour is below, also when its largest channel is rounded up to 13 bits, and of whose
+/// square the variance is below 2¹¹ times. Not less than −113; with a variance that f32 can hold, not less than −68.
+pub(super) fn history_exponent(color: V, variance: f64) -> i32 {
+    let largest = color.into_iter().fold(0.0, f64::max);
+    let below = largest.log2().floor() as i32 + 1;
+    let below = below + i32::from(largest > f64::from(below).exp2() * 8191.0 / 8192.0);
+    let of_color = if largest > 0.0 { below } else { i32::MIN };
+    let of_variance = if variance < f64::from(f32::MIN_POSITIVE) {
+        i32::MIN
+    } else {
+        (variance.log2().floor() as i32 + 127) / 2 - 68
+    };
+    of_color.max(of_variance).clamp(-113, 126)
+}
+
+/// The variance, as a part of the square of the history's power of two, whose code is 0.
+pub(super) const VARIANCE_UNIT: f64 = 1.0 / 1_048_576.0;
+
+/// The code of a variance that is so great a part of the square of the history's power of two, before it is rounded.
+pub(super) fn variance_code(relative: f64) -> f64 {
+    float_code(relative / VARIANCE_UNIT, 16.0)
+}
+
+/// A number as the code of a float with so many steps in an octave, before it is rounded; 2⁰ is 0.
+pub(super) fn float_code(x: f64, steps: f64) -> f64 {
+    let exponent = x.log2().floor();
+    steps * (exponent + x / exponent.exp2() - 1.0)
+}
+
+fn from_float_code(code: f64, steps: f64) -> f64 {
+    let exponent = (code / steps).floor();
+    exponent.exp2() * (1.0 + code / steps - exponent)
+}
+
+/// 3 × 13 bits and their exponent; 9 bits of variance; 8 bits of length, the code of 1 being 1. To the nearest.
+pub(super) fn pack_history(kept: Kept) -> [u32; 2] {
+    if kept.length == 0.0 {
+        return [0; 2];
+    }
+    let exponent = history_exponent(kept.color, kept.variance);
+    let scale = f64::from(exponent).exp2();
+    let [r, g, b] = kept.color.map(|c| (c / scale * 8192.0).round() as u64);
+    let relative = kept.variance / (scale * scale);
+    let variance = if relative < 2.0 * VARIANCE_UNIT { 0 } else { variance_code(relative).round() as u64 };
+    let length = (float_code(kept.length, 16.0) + 1.0).round() as u64;
+    let bits = r | g << 13 | b << 26 | ((exponent + 127) as u64) << 39 | variance << 47 | length << 56;
+    [bits as u32, (bits >> 32) as u32]
+}
+
+pub(super) fn unpack_history(words: [u32; 2]) -> Kept {
+    let bits = u64::from(words[0]) | u64::from(words[1]) << 32;
+    let field = |shift: u32, bits_wide: u32| (bits >> shift & ((1 << bits_wide) - 1)) as f64;
+    let scale = (field(39, 8) - 127.0).exp2();
+    let color = [0, 13, 26].map(|shift| field(shift, 13) / 8192.0 * scale);
+    let (variance, length) = (field(47, 9), field(56, 8));
+    let variance = if variance < 16.0 { 0.0 } else { from_float_code(variance, 16.0) * VARIANCE_UNIT * scale * scale };
+    Kept { color, variance, length: if length == 0.0 { 0.0 } else { from_float_code(length - 1.0, 16.0) } }
+}
+
+/// PCG-RXS-M-XS 32 (O'Neill 2014).
+pub(super) fn hash(x: u32) -> u32 {
+    let state = x.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = (state >> ((state >> 28) + 4) ^ state).wrapping_mul(277_803_737);
+    word >> 22 ^ word
+}
+
+/// What colour, variance and length of a pixel are rounded up with, 0…1: Roberts' sequence of three dimensions.
+pub(super) fn rounding(pixel: [u32; 2], index: u32) -> V {
+    let start = hash(pixel[0] ^ hash(pixel[1]));
+    let step = [3_518_319_155_u32, 2_882_110_345, 2_360_945_575];
+    let bits = [0, 11, 22].map(|shift| start << shift);
+    [0, 1, 2].map(|i| f64::from(bits[i].wrapping_add(index.wrapping_mul(step[i]))) / 2.0_f64.powi(32))
+}
+
 /// In steps of 1/256 pixel, 21 bits each with a sign; what is too far leads nowhere. The depth has 14 bits of mantissa.
 pub(super) fn pack_motion(m: V) -> [u32; 2] {
     let near = m[..2].iter().all(|c| c.abs() < 4095.5);

@@ -23,6 +23,7 @@ mod atrous;
 mod gradient;
 mod gradient_sample;
 mod guards;
+mod history;
 mod ingest_pairs;
 mod ingest_radiance;
 mod ingest_surface;

@@ -1,11 +1,10 @@
 // Numbers through every format and back, for the test of the formats.
 
 #import asvgf::packing::{pack_rgb, unpack_rgb, pack_unsigned, unpack_unsigned, pack_motion, unpack_motion, pack_normal, unpack_normal, unpack_octahedral, round_to_f16}
-#import asvgf::history::{pack_length_lambda, unpack_length, unpack_lambda}
 
-// (colour, history length), (unit vector, λ), (motion, depth, octahedral bits)
+// (colour, 0), (unit vector, 0), (motion, depth, octahedral bits)
 @group(0) @binding(0) var<storage, read> numbers: array<vec4<f32>>;
-// Colour and length; normal and λ; the three colour channels as 16-bit floats; octahedral; rounded to f16; motion.
+// Colour; normal; the three colour channels as 16-bit floats; octahedral; rounded to f16; motion.
 @group(0) @binding(1) var<storage, read_write> results: array<vec4<f32>>;
 
 @compute @workgroup_size(64)
@@ -17,9 +16,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let a = numbers[3u * i];
     let b = numbers[3u * i + 1u];
     let c = numbers[3u * i + 2u];
-    let packed = pack_length_lambda(a.w, b.w);
-    results[6u * i] = vec4(unpack_rgb(pack_rgb(a.xyz)), unpack_length(packed));
-    results[6u * i + 1u] = vec4(unpack_normal(pack_normal(b.xyz)), unpack_lambda(packed));
+    results[6u * i] = vec4(unpack_rgb(pack_rgb(a.xyz)), 0.0);
+    results[6u * i + 1u] = vec4(unpack_normal(pack_normal(b.xyz)), 0.0);
     results[6u * i + 2u] = vec4(
         unpack_unsigned(pack_unsigned(a.x)), unpack_unsigned(pack_unsigned(a.y)), unpack_unsigned(pack_unsigned(a.z)), 0.0);
     results[6u * i + 3u] = vec4(unpack_octahedral(bitcast<u32>(c.w)), 0.0);

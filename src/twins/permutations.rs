@@ -81,6 +81,8 @@ fn host_traits() -> Vec<HostTraits> {
                 pairs_in_place: bit(8) && !bit(7),
                 confidence: bit(9),
                 diagnostics: bit(10),
+                views: false,
+                in_target: false,
             })
         })
         .collect()
@@ -151,12 +153,23 @@ fn host_plans() -> Vec<(Plan, Mode)> {
             plans.push((Plan::hosted(&traits, &settings, changes, TextureFormat::Rgba32Float), Mode::Denoise));
         }
     }
-    for ((albedo, emission), (mode, target)) in
-        product(&product(&[false, true], &[false, true]), &product(&MODES, &TARGETS))
-    {
-        let traits = HostTraits { albedo, emission, ..Default::default() };
-        let settings = Settings { mode, ..Settings::adaptive() };
-        plans.push((Plan::hosted(&traits, &settings, Changes::ANY, target), mode));
+    // The host's own images, and copies of some or all.
+    for (bits, (mode, target)) in product(&(0_u32..1 << 6).collect::<Vec<_>>(), &product(&MODES, &TARGETS)) {
+        let bit = |i: u32| bits >> i & 1 == 1;
+        let traits = HostTraits {
+            albedo: bit(0),
+            emission: bit(1),
+            demodulated: bit(2),
+            previous_depth: bit(3),
+            views: bit(4),
+            in_target: bit(5),
+            ..Default::default()
+        };
+        for gradient in HOST_GRADIENTS {
+            let filter = FilterSettings { gradient, ..Default::default() };
+            let settings = Settings { mode, filter, ..Settings::adaptive() };
+            plans.push((Plan::hosted(&traits, &settings, Changes::ANY, target), mode));
+        }
     }
     for (instances, (marked, filter)) in product(&[false, true], &product(&[false, true], &filters(&HOST_GRADIENTS))) {
         let traits = HostTraits { instances, pairs_in_place: marked, confidence: marked, ..Default::default() };

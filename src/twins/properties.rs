@@ -2,7 +2,7 @@
 
 use super::atrous;
 use super::bench::{Bench, Texel};
-use super::codec::{luminance, pack_normal, pack_rgb, pack_tap, unpack_rgb, unpack_tap, word};
+use super::codec::{Kept, luminance, pack_normal, pack_rgb, pack_tap, unpack_rgb, unpack_tap, word};
 use super::plane::{V, unit};
 use super::temporal::Given;
 use crate::plan::Feature::{self, FullKernel, LocalLinearFit};
@@ -148,7 +148,7 @@ proptest! {
         }
     }
 
-    /// The running mean and variance of n samples are their mean and variance (West 1979), to what 18 bits round.
+    /// The running mean and variance of n samples are their mean and variance (West 1979), to what 18 bits of a sample round.
     #[test]
     fn history_is_the_mean_and_the_variance_of_its_samples(samples in prop::collection::vec(0.0..100.0_f64, 2..40)) {
         let mut given = Given::new([1, 1], &[Feature::VarianceOfMean], Settings::adaptive().constant(0.0), false);
@@ -161,8 +161,7 @@ proptest! {
             given.radiance = vec![[a, b, 0, 0]];
             given.bench.continued = last.is_some();
             let out = given.twin(0, 0);
-            let [a, b] = pack_rgb(out.color);
-            given.history = vec![[a, b, word(out.variance), word(out.length)]];
+            given.history = vec![Kept { color: out.color, variance: out.variance, length: out.length }];
             last = Some(out);
         }
         let out = last.unwrap();
@@ -179,9 +178,10 @@ proptest! {
         let filter = FilterSettings { alpha, history_power: power, max_history: 16.0, ..Default::default() };
         let features = [Feature::Gradient, Feature::InPlace, Feature::HistoryRatio, Feature::VarianceOfMean];
         let given = Given::new([7, 5], &features, Settings { filter, ..Settings::adaptive() }, moving);
-        let colors = |image: &[Texel]| image.iter().flat_map(|t| unpack_rgb([t[0], t[1]])).fold(0.0, f64::max);
+        let samples = given.radiance.iter().flat_map(|t| unpack_rgb([t[0], t[1]])).fold(0.0, f64::max);
+        let history = given.history.iter().flat_map(|h| h.color).fold(0.0, f64::max);
         // The history is rescaled by at most 4.
-        let most = colors(&given.radiance).max(4.0 * colors(&given.history));
+        let most = samples.max(4.0 * history);
         for (x, y) in given.bench.pixels() {
             let out = given.twin(x, y);
             prop_assert!(out.color.into_iter().all(|c| c >= 0.0 && c <= most * (1.0 + 1e-9)));

@@ -1,7 +1,9 @@
 //! The picture put together: colour · albedo + emission, and its mean over frames.
 
 use super::bench::{Bench, SIZES, Texel};
-use super::codec::{assert_close, float, pack_rgb, pack_tap, radiance, unpack_rgb, unpack_tap, word};
+use super::codec::{
+    Kept, assert_close, float, pack_history, pack_rgb, pack_tap, radiance, unpack_history, unpack_rgb, unpack_tap, word,
+};
 use super::random::Random;
 use crate::Settings;
 use crate::passes::resolve;
@@ -25,8 +27,7 @@ fn check(features: &[Feature], bright: f64) {
             let bench = Bench { continued, ..Bench::new(size, Settings::adaptive()) };
             let features = Features::of(features);
             let unfiltered = features.has(Feature::Unfiltered);
-            // The history's colour has the radiance's format.
-            let precise = unfiltered || features.has(Feature::TemporalOnly);
+            let temporal_only = features.has(Feature::TemporalOnly);
             let mut random = Random(9);
             let count = (size[0] * size[1]) as usize;
             let mut texels = |f: &mut dyn FnMut(&mut Random) -> Texel| -> Vec<Texel> {
@@ -39,8 +40,13 @@ fn check(features: &[Feature], bright: f64) {
             // Every fifth pixel sees nothing.
             let guide = texels(&mut |r| [1, u32::from(r.below(5) > 0), 0, 0]);
             let color = texels(&mut |r| {
-                let [a, b] = pack_tap(radiance(r), 1.0);
-                if precise { packed(r) } else { [a, b, 0, 0] }
+                let color = radiance(r);
+                let [a, b] = match () {
+                    () if unfiltered => pack_rgb(color.map(|c| c * bright)),
+                    () if temporal_only => pack_history(Kept { color, variance: r.unit(), length: 3.0 }),
+                    () => pack_tap(color, 1.0),
+                };
+                [a, b, 0, 0]
             });
             let sky = texels(&mut |r| packed(r));
             let albedo = texels(&mut |r| {
@@ -51,7 +57,7 @@ fn check(features: &[Feature], bright: f64) {
             let before = texels(&mut |r| [0; 4].map(|_| word(10.0 * r.unit())));
             let step = resolve::step(
                 features,
-                (!unfiltered).then_some(if precise { Image::History } else { Image::Color(0) }),
+                (!unfiltered).then_some(if temporal_only { Image::History } else { Image::Color(0) }),
             );
             let mut inputs = vec![(if unfiltered { "radiance" } else { "color" }, color.clone())];
             if features.has(Feature::Background) {
@@ -71,8 +77,10 @@ fn check(features: &[Feature], bright: f64) {
             for i in 0..count {
                 let reflected = if features.has(Feature::Background) && guide[i][1] == 0 {
                     unpack_rgb([sky[i][0], sky[i][1]])
-                } else if precise {
+                } else if unfiltered {
                     unpack_rgb([color[i][0], color[i][1]])
+                } else if temporal_only {
+                    unpack_history([color[i][0], color[i][1]]).color
                 } else {
                     unpack_tap(color[i]).0
                 };

@@ -2,13 +2,13 @@
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
-    assert_close, depth, float, luminance, pack_motion, pack_rgb, radiance, unpack_motion, unpack_normal, unpack_rgb,
+    Kept, VARIANCE_UNIT, assert_close, depth, float, float_code, history_exponent, luminance, pack_history,
+    pack_motion, pack_rgb, radiance, rounding, unpack_history, unpack_motion, unpack_normal, unpack_rgb, variance_code,
     word,
 };
 use super::plane::{Pinhole, V, add, dot, scale, sub};
 use super::random::Random;
 use super::strata::{Site, exponent, falloff};
-use super::variance::length_of;
 use crate::passes::temporal;
 use crate::plan::{Feature, Features, Image};
 use crate::{FilterSettings, Settings};
@@ -23,7 +23,7 @@ pub(super) struct Given {
     pub(super) object: Vec<u32>,
     pub(super) object_before: Vec<u32>,
     pub(super) radiance: Vec<Texel>,
-    pub(super) history: Vec<Texel>,
+    pub(super) history: Vec<Kept>,
     feedback: Vec<Texel>,
     samples: Vec<Texel>,
     gradient: Vec<Texel>,
@@ -92,11 +92,16 @@ impl Given {
         };
         let radiance_now = each(&mut |r| color(r));
         let feedback = each(&mut |r| color(r));
-        let history = each(&mut |r| {
-            let length = 1.0 + 20.0 * r.unit().powi(2);
-            let [a, b] = if features.has(Feature::Feedback) { [word(r.unit()), 0] } else { pack_rgb(radiance(r)) };
-            [a, b, word(r.unit().powi(4)), word(length) & 0xffff_ff00 | 3]
-        });
+        let history = (0..count)
+            .map(|_| {
+                let length = 1.0 + 20.0 * random.unit().powi(2);
+                let color = if features.has(Feature::Feedback) { [random.unit(); 3] } else { radiance(&mut random) };
+                // What the texture holds of it.
+                unpack_history(pack_history(Kept { color, variance: random.unit().powi(4), length }))
+            })
+            .collect();
+        let mut each =
+            |f: &mut dyn FnMut(&mut Random) -> Texel| -> Vec<Texel> { (0..count).map(|_| f(&mut random)).collect() };
         let object = each(&mut |r| [u32::from(r.unit() < 0.1); 4]).iter().map(|t| t[0]).collect();
         let object_before = each(&mut |r| [u32::from(r.unit() < 0.1); 4]).iter().map(|t| t[0]).collect();
         let samples = bench.records(&guide, &mut random);
@@ -152,7 +157,7 @@ impl Given {
             ("object", self.object.iter().map(|&o| [o; 4]).collect()),
             ("object_previous", self.object_before.iter().map(|&o| [o; 4]).collect()),
             ("radiance", self.radiance.clone()),
-            ("history_previous", self.history.clone()),
+            ("history_previous", self.history.iter().map(|&h| pack_guide(&pack_history(h))).collect()),
             ("feedback_previous", self.feedback.clone()),
             ("samples", self.samples.clone()),
             ("gradient", self.gradient.clone()),
@@ -195,22 +200,22 @@ impl Given {
         }
         let h = self.history[q];
         let (color, mean) = self.stored(q);
-        notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(float(h[2]).sqrt());
+        notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(h.variance.sqrt());
         sum.color = add(sum.color, scale(color, w));
         sum.mean += w * mean;
         sum.square += w * mean * mean;
-        sum.variance += w * float(h[2]);
-        sum.length += w * length_of(h);
+        sum.variance += w * h.variance;
+        sum.length += w * h.length;
         sum.weight += w;
     }
 
     /// Colour and mean luminance of a texel of the history.
     fn stored(&self, q: usize) -> (V, f64) {
-        let h = self.history[q];
+        let color = self.history[q].color;
         if self.has(Feature::Feedback) {
-            (unpack_rgb([self.feedback[q][0], self.feedback[q][1]]), float(h[0]))
+            (unpack_rgb([self.feedback[q][0], self.feedback[q][1]]), color[0])
         } else {
-            (unpack_rgb([h[0], h[1]]), luminance(unpack_rgb([h[0], h[1]])))
+            (color, luminance(color))
         }
     }
 
@@ -218,7 +223,7 @@ impl Given {
     fn before(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> Option<Before> {
         if self.has(Feature::Still) {
             let (color, mean) = self.stored(i);
-            let (variance, length) = (float(self.history[i][2]), length_of(self.history[i]));
+            let Kept { variance, length, .. } = self.history[i];
             notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(variance.sqrt());
             return Some(Before { color, mean, variance, length, ..Default::default() });
         }
@@ -391,30 +396,56 @@ fn check(features: &[Feature], settings: &Settings) {
                 continue;
             }
             followed += usize::from(expected.length > 1.0);
-            let fed = given.has(Feature::Feedback);
-            let stored = if fed { written["feedback_out"][i] } else { history };
-            let stored = unpack_rgb([stored[0], stored[1]]);
             // Weights between strata are known to 1e-4, and with them λ, which a power of up to ten multiplies.
             let tolerance = 2e-3 * expected.largest + 1e-30;
-            for (found, expected) in stored.into_iter().zip(expected.color) {
-                assert_close(found, expected, tolerance, || format!("{}: colour", what()));
+            let mut color = expected.color;
+            if given.has(Feature::Feedback) {
+                let fed = written["feedback_out"][i];
+                for (found, expected) in unpack_rgb([fed[0], fed[1]]).into_iter().zip(color) {
+                    assert_close(found, expected, tolerance, || format!("{}: colour", what()));
+                }
+                color = [expected.mean; 3];
             }
-            if fed {
-                assert_close(float(history[0]), expected.mean, tolerance, || format!("{}: mean", what()));
-            }
-            let variance = float(history[2]);
-            let squared = 4e-3 * expected.largest.powi(2) + 1e-30;
-            assert_close(variance, expected.variance, squared, || format!("{}: variance", what()));
-            // 15 bits of mantissa.
-            let length = length_of(history);
-            assert_close(length, expected.length, 2e-3 * expected.length, || format!("{}: length", what()));
-            let lambda = f64::from(history[3] & 0xff) / 255.0;
-            let above = lambda - expected.lambda;
-            assert!((-1e-3..1.0 / 255.0 + 1e-3).contains(&above), "{}: λ {lambda}, not {}", what(), expected.lambda);
+            assert_kept(
+                [history[0], history[1]],
+                &expected,
+                color,
+                tolerance,
+                rounding([x as u32, y as u32], 5),
+                &what,
+            );
         }
     }
     println!("{features:?}: {compared} pixels, {followed} with a history, {unsure} at a threshold");
     assert!(unsure * 10 <= compared && followed * 4 >= compared, "{features:?}: the test has lost its grip");
+}
+
+/// Asserts that what is expected, give or take some, was rounded as it had to be.
+fn assert_kept(words: [u32; 2], expected: &Blended, color: V, tolerance: f64, random: V, what: &dyn Fn() -> String) {
+    let bits = u64::from(words[0]) | u64::from(words[1]) << 32;
+    let field = |shift: u32, width: u32| (bits >> shift & ((1 << width) - 1)) as f64;
+    let between = |found: f64, [low, high]: [f64; 2], random: f64, name: &str| {
+        // The shader rounds with fewer bits.
+        let [low, high] = [(low + random - 1e-3).floor(), (high + random + 1e-3).floor()];
+        assert!(low <= found && found <= high, "{}: {name} {found}, not {low}…{high}", what());
+    };
+    let exponent = field(39, 8) - 127.0;
+    let squared = 4e-3 * expected.largest.powi(2) + 1e-30;
+    let around = |x: f64, error: f64| [x - error, x + error].map(|x| x.max(0.0));
+    let [low, high] = [0, 1].map(|end| {
+        f64::from(history_exponent(color.map(|c| around(c, tolerance)[end]), around(expected.variance, squared)[end]))
+    });
+    assert!(low <= exponent && exponent <= high, "{}: exponent {exponent}, not {low}…{high}", what());
+    let scale = exponent.exp2();
+    for (shift, c) in [0, 13, 26].into_iter().zip(color) {
+        between(field(shift, 13), around(c, tolerance).map(|c| c / scale * 8192.0), random[0], "colour");
+    }
+    // The code of 2⁻²⁰ is 0, and without an exponent there is nothing.
+    let variance = |v: f64| variance_code((v / (scale * scale)).max(VARIANCE_UNIT));
+    let [low, high] = around(expected.variance, squared).map(variance);
+    between(field(47, 9), [if low < 16.0 { -1.0 } else { low }, high.max(16.0)], random[1], "variance");
+    let length = [1.0 - 2e-3, 1.0 + 2e-3].map(|part| float_code((expected.length * part).max(1.0), 16.0) + 1.0);
+    between(field(56, 8), length, random[2], "length");
 }
 
 #[test]

@@ -3,7 +3,8 @@
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
-    assert_close, depth, float, luminance, pack_rgb, radiance, unpack_normal, unpack_rgb, unpack_tap, word,
+    Kept, assert_close, depth, luminance, pack_history, pack_rgb, radiance, unpack_history, unpack_normal, unpack_rgb,
+    unpack_tap,
 };
 use super::plane::{dot, sub};
 use super::random::Random;
@@ -12,21 +13,16 @@ use crate::Settings;
 use crate::passes::variance;
 use crate::plan::{Feature, Features};
 
-/// History length in the upper 24 bits of a float.
-pub(super) fn length_of(texel: Texel) -> f64 {
-    float(texel[3] & 0xffff_ff00)
-}
-
-fn mean_of(texel: Texel, features: Features) -> f64 {
-    if features.has(Feature::Feedback) { float(texel[0]) } else { luminance(unpack_rgb([texel[0], texel[1]])) }
+fn kept(texel: Texel) -> Kept {
+    unpack_history([texel[0], texel[1]])
 }
 
 /// The standard deviation that steers the luminance stop, and the scale of the numbers that it is a difference of.
 fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
     let i = bench.at(x, y).unwrap();
-    let (normal, z, n) = (unpack_normal(guide[i][0]), depth(guide[i]), length_of(history[i]));
+    let (normal, z, n) = (unpack_normal(guide[i][0]), depth(guide[i]), kept(history[i]).length);
     let of_mean = features.has(Feature::VarianceOfMean);
-    let own = float(history[i][2]);
+    let own = kept(history[i]).variance;
     if n >= 4.0 {
         // With Bessel's correction while n is below 8.
         let bessel = if n < 8.0 { n / (n - 1.0) } else { 1.0 };
@@ -39,8 +35,8 @@ fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel]
         let Some(q) = bench.at(x + dx, y + dy).filter(|&q| depth(guide[q]) > 0.0) else { continue };
         let distance = dot(normal, sub(bench.position(x + dx, y + dy, depth(guide[q])), position)).abs();
         let exponent = distance / (0.02 * z) + 64.0 * (1.0 - dot(normal, unpack_normal(guide[q][0])));
-        let (w, mean) = (falloff(exponent), mean_of(history[q], features));
-        let second_moment = float(history[q][2]) + mean * mean;
+        let (w, mean) = (falloff(exponent), luminance(kept(history[q]).color));
+        let second_moment = kept(history[q]).variance + mean * mean;
         first += w * mean;
         second += w * second_moment;
         squares = f64::max(squares, second_moment);
@@ -74,8 +70,10 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
             }
             let length = [1.0, 1.5, 2.0, 3.0, 3.75, 4.0, 6.0, 20.0][random.below(8)];
             let color = radiance(random).map(|c| c.min(brightest));
-            let [a, b] = if step.features.has(Feedback) { [word(luminance(color)), 0] } else { pack_rgb(color) };
-            [a, b, word(random.unit() * luminance(color).powi(2)), word(length) & 0xffff_ff00 | 77]
+            // Fed by the spatial filter, the history has the mean luminance in the colour's place.
+            let color = if step.features.has(Feedback) { [luminance(color); 3] } else { color };
+            let [a, b] = pack_history(Kept { color, variance: random.unit() * luminance(color).powi(2), length });
+            [a, b, 0, 0]
         };
         let history: Vec<Texel> = guide.iter().map(|g| texel(g, &mut random)).collect();
         let feedback: Vec<Texel> = guide
@@ -94,13 +92,14 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
         for (x, y) in bench.pixels() {
             let i = bench.at(x, y).unwrap();
             let (out, what) = (written["color_out"][i], || format!("{size:?} ({x}, {y}), {features:?}"));
-            if length_of(history[i]) == 0.0 {
+            if kept(history[i]).length == 0.0 {
                 assert_eq!(out, [0; 4], "{}: a miss", what());
                 continue;
             }
-            let source = if step.features.has(Feedback) { feedback[i] } else { history[i] };
+            let fed = unpack_rgb([feedback[i][0], feedback[i][1]]);
+            let source = if step.features.has(Feedback) { fed } else { kept(history[i]).color };
             let (color, deviation) = unpack_tap(out);
-            for (found, expected) in color.into_iter().zip(unpack_rgb([source[0], source[1]])) {
+            for (found, expected) in color.into_iter().zip(source) {
                 assert_close(found, expected, expected * 2.0_f64.powi(-11) + 1e-9, || format!("{}: colour", what()));
             }
             let (expected, squares) = twin(&bench, step.features, &guide, &history, x, y);

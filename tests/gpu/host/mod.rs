@@ -1,6 +1,7 @@
 //! A host's own frames: the path tracer's images handed in again, and those of a tiny renderer.
 
 mod cleaning;
+mod copies;
 mod formats;
 mod levels;
 mod radiance;

@@ -1,0 +1,76 @@
+#define_import_path asvgf::host_light
+
+// A host's light, cleaned before it reaches history: what ingest_radiance.wgsl stores, or (HOST_LIGHT) what others read
+// instead.
+
+#import asvgf::color::{BRIGHTEST, is_finite, sanitize}
+#import asvgf::packing::pack_rgb
+#ifdef ALBEDO
+#import asvgf::packing::round_to_f16
+#endif
+
+@group(0) @binding(25) var radiance: texture_2d<f32>;
+#ifdef ALBEDO
+@group(0) @binding(26) var albedo: texture_2d<f32>;
+#endif
+#ifdef DIRECT_EMISSION
+@group(0) @binding(27) var emission: texture_2d<f32>;
+#endif
+
+#ifdef DIAGNOSTICS
+// What was found in this pixel.
+var<private> not_finite: bool = false;
+var<private> below_zero: bool = false;
+#endif
+
+fn clean(color: vec3<f32>) -> vec3<f32> {
+#ifdef DIAGNOSTICS
+    let finite = vec3(is_finite(color.x), is_finite(color.y), is_finite(color.z));
+    not_finite |= !all(finite);
+    below_zero |= any(finite & (color < vec3(0.0)));
+#endif
+    return sanitize(color);
+}
+
+#ifdef ALBEDO
+// What the filtered radiance is multiplied with; `hit` where there is a surface.
+fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+    // Below the limit of f16.
+    var a = min(clean(textureLoad(albedo, pixel, 0).xyz), vec3(65472.0));
+#ifdef MODULATED
+    a = select(vec3(1.0), max(a, vec3(1e-3)), hit);
+#endif
+    return round_to_f16(a);
+}
+#endif
+
+#ifdef DIRECT_EMISSION
+fn host_emission(pixel: vec2<i32>) -> vec2<u32> {
+    return pack_rgb(clean(textureLoad(emission, pixel, 0).xyz));
+}
+#endif
+
+// The light alone, r = max(radiance − emission, 0) / divisor, the divisor being the albedo, if that is in it.
+fn host_radiance(pixel: vec2<i32>, divisor: vec3<f32>) -> vec2<u32> {
+    var r = clean(textureLoad(radiance, pixel, 0).xyz);
+#ifdef MODULATED
+#ifdef DIRECT_EMISSION
+    // Where colour and emission disagree by a pixel, as at a light's edge, light must not become negative.
+    r = max(r - clean(textureLoad(emission, pixel, 0).xyz), vec3(0.0));
+#endif
+#ifdef ALBEDO
+    r /= divisor;
+#endif
+#endif
+    return pack_rgb(min(r, vec3(BRIGHTEST)));
+}
+
+// As `host_radiance`, by the pixel's own albedo.
+fn host_sample(pixel: vec2<i32>, hit: bool) -> vec2<u32> {
+#ifdef MODULATED
+#ifdef ALBEDO
+    return host_radiance(pixel, host_albedo(pixel, hit));
+#endif
+#endif
+    return host_radiance(pixel, vec3(1.0));
+}
