@@ -188,7 +188,7 @@ impl Default for FilterSettings {
             sigma_luminance: 3.5,
             sigma_depth: 0.0025,
             sigma_normal: 32.0,
-            sigma_foreshortening: 0.5,
+            sigma_foreshortening: 0.25,
         }
     }
 }
