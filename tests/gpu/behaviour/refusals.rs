@@ -1,12 +1,12 @@
 //! What cannot be done is refused by name, and costs no history.
 
-use crate::common::gpu::gpu;
+use crate::common::gpu::{Gpu, gpu};
 use crate::common::stage::Stage;
 use asvgf::{
     Camera, Denoiser, DenoiserDescriptor, Error, FilterSettings, Gradient, Mode, Settings, TracerSettings, View,
     ViewOptions,
 };
-use wgpu::{TextureFormat, TextureUsages, TextureView};
+use wgpu::{InstanceFlags, TextureFormat, TextureUsages, TextureView};
 
 const SIZE: [u32; 2] = [24, 16];
 
@@ -128,6 +128,16 @@ fn timing_on_a_device_without_timestamps() {
     let error = Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap_err();
     let missing = wgpu::Features::TIMESTAMP_QUERY;
     assert!(matches!(error, Error::Feature { missing: m, .. } if m == missing), "{error}");
+}
+
+#[test]
+fn pipelines_of_another_device() {
+    let other = Gpu::new(InstanceFlags::default());
+    let own = Denoiser::new(&gpu().device, &gpu().queue, &DenoiserDescriptor { size: SIZE, ..Default::default() });
+    let pipelines = Some(own.unwrap().pipelines().clone());
+    let descriptor = DenoiserDescriptor { size: SIZE, pipelines, ..Default::default() };
+    assert!(matches!(Denoiser::new(&other.device, &other.queue, &descriptor), Err(Error::OtherDevice)));
+    assert!(Denoiser::new(&gpu().device, &gpu().queue, &descriptor).is_ok());
 }
 
 #[test]
