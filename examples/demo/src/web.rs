@@ -33,6 +33,11 @@ impl Page {
         self.demo(|demo| demo.adopt(state))
     }
 
+    /// What was chosen, as a saved file says it.
+    pub fn chosen(&self) -> Result<String, JsValue> {
+        self.demo(|demo| demo.state.save())
+    }
+
     /// Frames that were rendered so far.
     pub fn frames(&self) -> Result<u32, JsValue> {
         self.demo(|demo| demo.frames())
