@@ -1,5 +1,6 @@
 //! The demo in a browser: what the page calls.
 
+use asvgf_demo::action::Action;
 use asvgf_demo::app::Demo;
 use asvgf_demo::gpu;
 use asvgf_demo::state::State;
@@ -43,6 +44,11 @@ impl Page {
     /// What was chosen, as a saved file says it.
     pub fn chosen(&self) -> Result<String, JsValue> {
         self.demo(|demo| demo.state.save())
+    }
+
+    /// Asks for one frame, while time stands still.
+    pub fn step(&self) -> Result<(), JsValue> {
+        self.demo(|demo| demo.act(Action::Step))
     }
 
     /// Frames that were rendered so far.

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A picture that has not changed for so long has come to rest.
-const REST: Duration = Duration::from_millis(1500);
+const REST: Duration = Duration::from_millis(1000);
 
 /// Between two looks at the screen: far less than a frame takes.
 const LOOK: Duration = Duration::from_millis(2);
