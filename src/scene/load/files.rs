@@ -2,14 +2,9 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::Read as _;
 use std::path::{Component, Path, PathBuf};
 
 use crate::image_io::read_file;
-
-/// Bytes of a file that are enough to recognise it by.
-const START: usize = 64;
 
 /// All files that there are.
 #[derive(Clone, Copy)]
@@ -56,7 +51,11 @@ impl<'a> Files<'a> {
     }
 
     /// The first bytes of a file, as many as there are: enough to recognise it by.
+    #[cfg(feature = "gltf")]
     pub fn start(self, path: &Path) -> Cow<'a, [u8]> {
+        use std::{fs::File, io::Read as _};
+        /// Of the formats of images, none has a longer signature.
+        const START: usize = 64;
         match self {
             Self::Disk => {
                 let mut start = Vec::new();

@@ -25,6 +25,7 @@ impl<'a> Folder<'a> {
     }
 
     /// The first bytes of a file that was located, as many as there are: enough to recognise it by.
+    #[cfg(feature = "gltf")]
     pub fn start(&self, path: &Path) -> Cow<'a, [u8]> {
         self.files.start(path)
     }
