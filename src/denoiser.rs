@@ -286,8 +286,9 @@ impl Denoiser {
     ) -> Result<(), Error> {
         let accepted = [TextureFormat::Rgba32Float, TextureFormat::Rgba16Float, TextureFormat::Rgba8Unorm];
         let format = self.check_target(target, &accepted)?;
-        if self.begun.is_some() {
-            return Err(Error::NoView { view, reason: "a frame was begun and not denoised" });
+        if self.last.is_some() && !self.textures.is_complete() {
+            let reason = "a frame was begun, in the place of the last one's images, and not finished: finish one first";
+            return Err(Error::NoView { view, reason });
         }
         let Some(last) = self.last.take() else {
             return Err(Error::NoView { view, reason: "no frame was rendered yet" });

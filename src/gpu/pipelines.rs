@@ -28,7 +28,7 @@ impl Pipelines {
         Ok(Self { device: device.clone(), cache: Arc::new(Mutex::new(cache)) })
     }
 
-    /// Whether they are this device's.
+    /// Whether they are this device's. wgpu numbers devices by instance, and cannot tell those of two instances apart.
     pub(crate) fn belong_to(&self, device: &Device) -> bool {
         self.device == *device
     }

@@ -85,6 +85,11 @@ impl Textures {
         self.views.get(self.memory.texture(slot)?)?.as_ref()
     }
 
+    /// Whether what they hold is a whole frame: none was begun since.
+    pub fn is_complete(&self) -> bool {
+        self.memory.is_complete()
+    }
+
     /// Whether the last frame's image is still there.
     pub fn holds(&self, image: Image) -> bool {
         self.memory.holds(image)

@@ -14,7 +14,8 @@ macro_rules! features {
         }
 
         impl Feature {
-            const ALL: &[Self] = &[$(Self::$name),+];
+            /// Every feature, in order.
+            pub const ALL: &[Self] = &[$(Self::$name),+];
         }
     };
 }

@@ -133,6 +133,11 @@ impl Memory {
         }
     }
 
+    /// Whether this frame is over, and was not abandoned.
+    pub fn is_complete(&self) -> bool {
+        self.complete
+    }
+
     /// Whether this frame's image is still there when the frame is over.
     pub fn holds(&self, image: Image) -> bool {
         self.now.contains_key(&image) && !self.overwritten.contains(&image)

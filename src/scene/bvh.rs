@@ -2,10 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3A;
-use obvhs::bvh2::{Bvh2, builder, node::Bvh2Node};
-use obvhs::{BvhBuildParams, aabb::Aabb, triangle::Triangle};
+use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, node::Bvh2Node, reinsertion::ReinsertionOptimizer};
+use obvhs::{BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
 use std::collections::HashMap;
-use std::time::Duration;
 
 /// A node as the shader reads it: the boxes of its two children (Aila and Laine 2009), each with its reference.
 ///
@@ -103,12 +102,26 @@ pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_r
     if largest_crowd(&triangles) <= CROWD {
         let boxes: Vec<Aabb> = (0..).zip(&triangles).map(|(number, t)| unlike(t.aabb(), number)).collect();
         let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() };
-        let tree = lay_out(&builder::build_bvh2(&boxes, params, &mut Duration::default()));
+        let tree = lay_out(&build(&boxes, params));
         if tree.depth <= DEEPEST {
             return tree;
         }
     }
     lay_out(&halve(&triangles))
+}
+
+/// The steps of obvhs' `build_bvh2`, which takes their time too: browsers have no such clock.
+fn build(boxes: &[Aabb], params: BvhBuildParams) -> Bvh2 {
+    let BvhBuildParams { ploc_search_distance, sort_precision, search_depth_threshold, .. } = params;
+    let order = (0..boxes.len() as u32).collect();
+    let builder = &mut PlocBuilder::with_capacity(boxes.len());
+    let mut bvh = builder.build(ploc_search_distance, boxes, order, sort_precision, search_depth_threshold);
+    let mut optimizer = ReinsertionOptimizer::default();
+    optimizer.run(&mut bvh, params.reinsertion_batch_ratio, None);
+    collapse(&mut bvh, params.max_prims_per_leaf, params.collapse_traversal_cost);
+    let ratio = params.reinsertion_batch_ratio * params.post_collapse_reinsertion_batch_ratio_multiplier;
+    optimizer.run(&mut bvh, ratio, None);
+    bvh
 }
 
 /// A box grown by up to a 4096th of its longest side, by a hash of its number. obvhs merges nearest neighbours; where all are
@@ -177,7 +190,7 @@ fn halve(triangles: &[Triangle]) -> Bvh2 {
 pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]], first_node: u32) -> Tree {
     let boxes: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(b[0].into(), b[1].into())).collect();
     let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
-    let bvh = builder::build_bvh2(&boxes, params, &mut Duration::default());
+    let bvh = build(&boxes, params);
     lay_out(&bvh, boxes.len(), first_node, Leaves::Instances)
 }
 
@@ -235,6 +248,8 @@ fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tr
 #[cfg(test)]
 mod tests {
     use super::*;
+    use obvhs::bvh2::builder;
+    use std::time::Duration;
 
     fn grid(count: u32) -> Vec<[[f32; 3]; 3]> {
         (0..count)
@@ -283,6 +298,18 @@ mod tests {
         for count in [1, 2, 3, 5, 1000] {
             let corners = grid(count);
             check(&over_triangles(&corners, 40, 7), &corners, 40, 7);
+        }
+    }
+
+    #[test]
+    fn trees_are_those_of_obvhs() {
+        let boxes: Vec<Aabb> =
+            grid(1000).iter().map(|[a, b, c]| Aabb::from_points(&[*a, *b, *c].map(Vec3A::from))).collect();
+        for params in [BvhBuildParams::medium_build(), BvhBuildParams::fast_build()] {
+            let [ours, theirs] = [build(&boxes, params), builder::build_bvh2(&boxes, params, &mut Duration::default())];
+            assert_eq!(ours.primitive_indices, theirs.primitive_indices);
+            let bytes = |bvh: &Bvh2| bytemuck::cast_slice::<_, u8>(&bvh.nodes).to_vec();
+            assert!(bytes(&ours) == bytes(&theirs));
         }
     }
 

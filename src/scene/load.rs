@@ -1,12 +1,15 @@
 //! Reading scene files.
 
 pub(crate) mod decode;
+pub(crate) mod files;
 pub(crate) mod folder;
 pub(crate) mod report;
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use crate::scene::description::{Scene, SceneError, Warning};
+use files::Files;
 
 /// A scene and what could not be honoured of its file.
 #[derive(Clone, Debug)]
@@ -28,13 +31,27 @@ pub struct Loaded {
 /// An unknown extension, a file that cannot be read, or one that breaks its format so that it cannot be drawn: the
 /// error names the file, the element and the reason. What can be left out is left out, with a [`Warning`].
 pub fn load(path: impl AsRef<Path>) -> Result<Loaded, SceneError> {
-    let path = path.as_ref();
+    read(Files::Disk, path.as_ref())
+}
+
+/// As [`load`], from files in memory: for what was dropped on a web page, or is in an archive. `path` says which of `files`
+/// is the scene; those that it refers to are looked for by their paths in its folder, and by their mere names beside it, as
+/// browsers do not tell in which folder a dropped file lay.
+///
+/// # Errors
+///
+/// As [`load`].
+pub fn load_from_memory(files: &BTreeMap<PathBuf, Vec<u8>>, path: impl AsRef<Path>) -> Result<Loaded, SceneError> {
+    read(Files::Memory(files), path.as_ref())
+}
+
+fn read(files: Files<'_>, path: &Path) -> Result<Loaded, SceneError> {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         #[cfg(feature = "gltf")]
-        Some("gltf" | "glb") => crate::scene::gltf::load(path),
+        Some("gltf" | "glb") => crate::scene::gltf::load(files, path),
         #[cfg(feature = "obj")]
-        Some("obj") => crate::scene::obj::load(path),
+        Some("obj") => crate::scene::obj::load(files, path),
         _ => Err(SceneError {
             file: path.display().to_string(),
             element: "file name".into(),

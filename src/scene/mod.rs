@@ -28,6 +28,6 @@ mod obj;
 
 pub use description::*;
 #[cfg(any(feature = "gltf", feature = "obj"))]
-pub use load::{Loaded, load};
+pub use load::{Loaded, load, load_from_memory};
 pub use pose::CameraView;
 pub use upload::GpuScene;

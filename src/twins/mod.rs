@@ -5,6 +5,7 @@
 //! that only the arithmetic between loading and storing differs.
 
 mod bench;
+mod browser;
 mod codec;
 mod compute;
 #[allow(dead_code, reason = "shared with the integration tests, which use the rest")]

@@ -4,7 +4,7 @@
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::passes::{self, Pass};
-use crate::plan::{Changes, Feature, HostTraits, Plan, Step, Traits, Traversal};
+use crate::plan::{Changes, Feature, Features, HostTraits, Plan, Step, Traits, Traversal};
 use crate::scene::{GpuScene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
@@ -180,7 +180,7 @@ fn host_plans() -> Vec<(Plan, Mode)> {
 }
 
 /// Every different shader with a step that asks for it.
-fn steps() -> BTreeMap<Permutation, Step> {
+pub(super) fn steps() -> BTreeMap<Permutation, Step> {
     let formats = [TextureFormat::Rgba8Unorm, TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
     let mut steps = BTreeMap::new();
     let mut add = |step: Step| {
@@ -201,6 +201,29 @@ fn steps() -> BTreeMap<Permutation, Step> {
             }
         }
         plan.steps.into_iter().for_each(&mut add);
+    }
+    steps
+}
+
+/// The same for every size of stack and of few triangles, in a scene that has all.
+pub(super) fn traversals() -> BTreeMap<Permutation, Step> {
+    let stacks = [4, 64].map(|stack| Traversal::Tree { stack });
+    let counts = [8, 16, 24, 32, 40, 48, 56, 64].map(|triangles| Traversal::Every { triangles });
+    let mut steps = BTreeMap::new();
+    for traversal in stacks.into_iter().chain(counts) {
+        let few_triangles = matches!(traversal, Traversal::Every { .. });
+        let traits = Traits {
+            instanced: true,
+            shading_normals: true,
+            environment: true,
+            alpha_mask: !few_triangles,
+            few_triangles,
+            ..Traits::default().everything()
+        };
+        let plan = Plan::path_traced(&traits, &Settings::adaptive(), Changes::ANY, TextureFormat::Rgba32Float);
+        for step in plan.steps.into_iter().filter(|s| s.pass.traces()) {
+            steps.insert(Permutation { pass: step.pass, features: step.features, traversal, view: 0 }, step);
+        }
     }
     steps
 }
@@ -233,6 +256,9 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
     }
     println!("{counts:?}");
     assert_eq!(counts.len(), 16, "a pass is never run: {counts:?}");
+    let reached: Features = steps.keys().flat_map(|permutation| permutation.features.iter()).collect();
+    let unreached: Vec<_> = Feature::ALL.iter().filter(|feature| !reached.has(**feature)).collect();
+    assert!(unreached.is_empty(), "never compiled in: {unreached:?}");
 }
 
 #[test]
@@ -240,14 +266,7 @@ fn every_size_of_stack_and_of_few_triangles_compiles() {
     let (device, queue) = noop_device();
     let scene = GpuScene::new(&device, &queue, &builtin::scene("pillars", "all").unwrap()).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
-    let stacks = [4, 64].map(|stack| Traversal::Tree { stack });
-    let counts = [8, 16, 24, 32, 40, 48, 56, 64].map(|triangles| Traversal::Every { triangles });
-    for traversal in stacks.into_iter().chain(counts) {
-        let traits = Traits { few_triangles: matches!(traversal, Traversal::Every { .. }), ..scene.traits() };
-        let plan = Plan::path_traced(&traits, &Settings::adaptive(), Changes::ANY, TextureFormat::Rgba32Float);
-        for step in plan.steps.iter().filter(|s| matches!(s.pass, Pass::Visibility | Pass::Trace)) {
-            let permutation = Permutation { pass: step.pass, features: step.features, traversal, view: 0 };
-            check(&device, &scene, &mut shaders, permutation, step);
-        }
+    for (permutation, step) in traversals() {
+        check(&device, &scene, &mut shaders, permutation, &step);
     }
 }

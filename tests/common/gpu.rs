@@ -35,8 +35,12 @@ impl Gpu {
 
     /// A device of its own with more than the least, where the adapter has it.
     pub fn with(flags: InstanceFlags, features: Features) -> Option<Self> {
-        let instance =
-            Instance::new(InstanceDescriptor { flags, ..InstanceDescriptor::new_without_display_handle_from_env() });
+        let descriptor = InstanceDescriptor { flags, ..InstanceDescriptor::new_without_display_handle_from_env() };
+        Self::of(&Instance::new(descriptor), features)
+    }
+
+    /// The same of an instance that is there.
+    pub fn of(instance: &Instance, features: Features) -> Option<Self> {
         let adapter = match pollster::block_on(instance.request_adapter(&Default::default())) {
             Ok(adapter) => adapter,
             Err(e) => panic!("{NO_ADAPTER}: {e}"),

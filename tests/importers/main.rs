@@ -10,6 +10,7 @@ mod gltf_geometry;
 mod gltf_materials;
 mod gltf_nodes;
 mod image_io;
+mod memory;
 mod obj;
 mod paths;
 mod scene;

@@ -1,5 +1,6 @@
 //! What the user asks for once, beside what is chosen and stays.
 
+use crate::dropped::Files;
 use std::path::PathBuf;
 
 /// Something to do before the next frame.
@@ -11,6 +12,8 @@ pub enum Action {
     Reset,
     /// Show another scene: a built-in one or a file.
     Open(String),
+    /// Show what these files in memory are: a scene with what it refers to, or what was saved.
+    Receive(Files),
     /// A quarter of the way around the scene, from one frame to the next.
     Cut,
     /// The scene's own camera again.

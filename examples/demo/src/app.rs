@@ -3,6 +3,7 @@
 use crate::action::Action;
 use crate::camera::Orbit;
 use crate::controls::{self, Facts, Fields};
+use crate::dropped::{self, Dropped, Files};
 use crate::embed::Embed;
 use crate::messages::Messages;
 use crate::picture::Picture;
@@ -12,7 +13,7 @@ use crate::trouble::Trouble;
 use crate::{shortcuts, views};
 use eframe::egui::{CentralPanel, Panel, Ui};
 use eframe::egui_wgpu::RenderState;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use wgpu::{DeviceType, PollType};
 
 /// Height of the plots in points.
@@ -24,6 +25,7 @@ pub struct Demo {
     pub picture: Picture,
     stage: Stage,
     fields: Fields,
+    dropped: Dropped,
     messages: Messages,
     trouble: Trouble,
     adapter: String,
@@ -46,13 +48,14 @@ impl Demo {
         let scale = if info.device_type == DeviceType::Cpu { 0.25 } else { 1.0 };
         let adapter = format!("{} ({:?})", info.name, info.backend);
         let picture = Picture::new(embed);
-        Ok(Self { state, picture, stage, fields: Fields::default(), messages, trouble, adapter, scale })
+        let (fields, dropped) = (Fields::default(), Dropped::default());
+        Ok(Self { state, picture, stage, fields, dropped, messages, trouble, adapter, scale })
     }
 
     /// Draws everything, and renders the next frame if the GPU is done with the last one.
     pub fn show(&mut self, ui: &mut Ui) {
         self.listen();
-        let mut actions = dropped(ui);
+        let mut actions = self.dropped.take(ui);
         shortcuts::read(ui, &mut self.state, &mut actions);
         self.panels(ui, &mut actions);
         for action in actions {
@@ -108,11 +111,13 @@ impl Demo {
         }
     }
 
-    fn act(&mut self, action: Action) {
+    /// Does what was asked for.
+    pub fn act(&mut self, action: Action) {
         match action {
             Action::Step => self.picture.step = true,
             Action::Reset => self.picture.forget = true,
-            Action::Open(name) => self.open(name),
+            Action::Open(name) => self.open(Stage::open(&name), name),
+            Action::Receive(files) => self.receive(&files),
             Action::Cut => {
                 self.orbit(Orbit::cut);
                 self.picture.forget = true;
@@ -144,8 +149,8 @@ impl Demo {
     }
 
     /// Shows another scene; where that is not possible says why, and the old one stays.
-    fn open(&mut self, name: String) {
-        let opened = Stage::open(&name).and_then(|stage| {
+    fn open(&mut self, stage: Result<Stage, String>, name: String) {
+        let opened = stage.and_then(|stage| {
             self.picture.embed.set_scene(&stage.scene).map_err(|error| error.to_string())?;
             Ok(stage)
         });
@@ -162,10 +167,26 @@ impl Demo {
         }
     }
 
+    /// Opens files that a browser has handed over.
+    fn receive(&mut self, files: &Files) {
+        let Some(path) = dropped::chief(files) else {
+            let names: Vec<String> = files.keys().map(|path| path.display().to_string()).collect();
+            let known = "a .gltf, .glb or .obj file, with those that it refers to, or a saved .json file";
+            return self.messages.error(format!("nothing of {} can be opened: drop {known}", names.join(", ")));
+        };
+        if dropped::is_saved(path) {
+            let text = String::from_utf8_lossy(&files[path]);
+            let loaded = State::load(&text).map(|state| self.adopt(state));
+            self.tell(path, loaded.map(|()| "was loaded"));
+        } else {
+            self.open(Stage::from_memory(files, path), path.display().to_string());
+        }
+    }
+
     /// Everything as a file says.
     pub fn adopt(&mut self, state: State) {
         if state.scene != self.state.scene {
-            self.open(state.scene.clone());
+            self.open(Stage::open(&state.scene), state.scene.clone());
         }
         self.state = State { scene: self.state.scene.clone(), ..state };
     }
@@ -201,14 +222,4 @@ impl eframe::App for Demo {
     fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
         Some(self)
     }
-}
-
-/// Files that were dropped into the window: what was saved, and scenes.
-fn dropped(ui: &Ui) -> Vec<Action> {
-    let paths: Vec<PathBuf> = ui.input(|input| input.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
-    let action = |path: PathBuf| match path.extension() {
-        Some(extension) if extension == "json" => Action::Load(path),
-        _ => Action::Open(path.display().to_string()),
-    };
-    paths.into_iter().map(action).collect()
 }

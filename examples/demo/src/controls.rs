@@ -12,6 +12,9 @@ use asvgf::{Settings, ViewOptions};
 use eframe::egui::{Button, ComboBox, ScrollArea, Slider, TextEdit, Ui};
 use std::path::PathBuf;
 
+/// Whether files can be read and written by their names: a page cannot.
+const FILES: bool = cfg!(not(target_arch = "wasm32"));
+
 /// File names that are being typed.
 pub struct Fields {
     scene: String,
@@ -94,7 +97,9 @@ pub fn side(ui: &mut Ui, state: &mut State, fields: &mut Fields, facts: &Facts<'
             ui.label(facts.adapter);
         });
         ui.collapsing("settings", |ui| all_settings(ui, state, actions));
-        ui.collapsing("files", |ui| files(ui, fields, actions));
+        if FILES {
+            ui.collapsing("files", |ui| files(ui, fields, actions));
+        }
         ui.collapsing("plan", |ui| match facts.plan {
             Some(p) => plan::show(ui, p),
             None => {
@@ -151,6 +156,10 @@ fn scene(ui: &mut Ui, state: &State, fields: &mut Fields, actions: &mut Vec<Acti
             }
         }
     });
+    if !FILES {
+        ui.label("drop a glTF or OBJ file here, with those that it refers to");
+        return;
+    }
     let (path, open) = file(ui, &mut fields.scene, "glTF or OBJ file; or drop one here", &["open"]);
     if open.is_some() && !path.is_empty() {
         actions.push(Action::Open(path));

@@ -3,11 +3,12 @@
 //! [`embed`] is what a host of one's own has to do; the rest is this program's window. Data flows one way: `controls` and
 //! `shortcuts` change the [`state`] and ask for `action`s, `picture` makes a frame of it, and `embed` renders that.
 
-mod action;
+pub mod action;
 pub mod app;
 mod camera;
 mod controls;
 mod documentation;
+pub mod dropped;
 pub mod embed;
 #[path = "../../support/framing.rs"]
 mod framing;

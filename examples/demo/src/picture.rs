@@ -225,8 +225,9 @@ impl Picture {
         if state.plots {
             self.measure(&mut encoder)?;
         }
-        if let (Some(path), Some(film)) = (self.wanted_file.take(), self.embed.film(state.left)) {
-            screenshot::record(&self.outcomes, &self.embed.gpu.device, &mut encoder, film, path);
+        if let (Some(path), Some(left)) = (self.wanted_file.take(), self.embed.film(state.left)) {
+            let right = self.embed.film(state.right).filter(|_| state.split).map(|film| (film, state.divider));
+            screenshot::record(&self.outcomes, &self.embed.gpu.device, &mut encoder, left, right, path);
         }
         if let (true, Some(film)) = (std::mem::take(&mut self.ask_radiance), self.embed.film(state.left)) {
             let texture = film.radiance.texture();

@@ -1,9 +1,10 @@
 //! Small results of the GPU, fetched without waiting.
 
+use std::ops::Range;
 use std::sync::{Arc, Mutex};
 use wgpu::{
-    Buffer, BufferDescriptor, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, CommandEncoder, Device, MapMode,
-    TexelCopyBufferInfo, TexelCopyBufferLayout, Texture,
+    Buffer, BufferDescriptor, BufferUsages, COPY_BYTES_PER_ROW_ALIGNMENT, CommandEncoder, Device, Extent3d, MapMode,
+    Origin3d, TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture,
 };
 
 /// Where results arrive, oldest first.
@@ -37,12 +38,32 @@ impl<T: Send + 'static> Readback<T> {
         texture: &Texture,
         read: impl FnOnce(&[u8]) -> T + Send + 'static,
     ) {
-        let row = texture.width() * texture.format().block_copy_size(None).unwrap_or(0);
+        self.fetch_columns(device, encoder, texture.size(), &[(texture.clone(), 0..texture.width())], read);
+    }
+
+    /// Likewise of columns of several textures of one format and size, which become one image.
+    pub fn fetch_columns(
+        &self,
+        device: &Device,
+        encoder: &mut CommandEncoder,
+        size: Extent3d,
+        parts: &[(Texture, Range<u32>)],
+        read: impl FnOnce(&[u8]) -> T + Send + 'static,
+    ) {
+        let texel = parts.first().and_then(|(texture, _)| texture.format().block_copy_size(None)).unwrap_or(0);
+        let row = size.width * texel;
         let padded = row.next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT);
-        let copy = Self::readable(device, u64::from(padded) * u64::from(texture.height()));
-        let layout = TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None };
-        let destination = TexelCopyBufferInfo { buffer: &copy, layout };
-        encoder.copy_texture_to_buffer(texture.as_image_copy(), destination, texture.size());
+        let copy = Self::readable(device, u64::from(padded) * u64::from(size.height));
+        for (texture, columns) in parts.iter().filter(|(_, columns)| !columns.is_empty()) {
+            let offset = u64::from(columns.start * texel);
+            let layout = TexelCopyBufferLayout { offset, bytes_per_row: Some(padded), rows_per_image: None };
+            let origin = Origin3d { x: columns.start, y: 0, z: 0 };
+            encoder.copy_texture_to_buffer(
+                TexelCopyTextureInfo { origin, ..texture.as_image_copy() },
+                TexelCopyBufferInfo { buffer: &copy, layout },
+                Extent3d { width: columns.len() as u32, ..size },
+            );
+        }
         self.map(encoder, copy, move |bytes| {
             let texels: Vec<u8> = bytes.chunks(padded as usize).flat_map(|r| &r[..row as usize]).copied().collect();
             read(&texels)

@@ -1,10 +1,11 @@
 //! The scene on show: where it comes from, and what of it moves.
 
+use crate::dropped::Files;
 use crate::framing::{bounds, framing};
 use crate::sky::{is_dark, sky};
 use crate::state::Motion;
 use asvgf::Camera;
-use asvgf::scene::{self, Animation, Pose, Scene, builtin};
+use asvgf::scene::{self, Animation, Loaded, Pose, Scene, SceneError, builtin};
 use glam::{Mat4, Vec3};
 use std::path::Path;
 
@@ -34,7 +35,7 @@ impl Stage {
     pub fn open(name: &str) -> Result<Self, String> {
         match Self::built_in(name) {
             Some(stage) => Ok(stage),
-            None => Self::file(Path::new(name)),
+            None => Self::loaded(scene::load(name)),
         }
     }
 
@@ -47,8 +48,13 @@ impl Stage {
         Some(Self::new(scene, object, Vec::new()))
     }
 
-    fn file(path: &Path) -> Result<Self, String> {
-        let loaded = scene::load(path).map_err(|error| error.to_string())?;
+    /// A file in memory, with those that it refers to.
+    pub fn from_memory(files: &Files, path: &Path) -> Result<Self, String> {
+        Self::loaded(scene::load_from_memory(files, path))
+    }
+
+    fn loaded(loaded: Result<Loaded, SceneError>) -> Result<Self, String> {
+        let loaded = loaded.map_err(|error| error.to_string())?;
         let mut scene = loaded.scene;
         let mut notes: Vec<String> = loaded.warnings.iter().map(|w| format!("{}: {}", w.element, w.reason)).collect();
         if is_dark(&scene) {

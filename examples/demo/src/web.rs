@@ -1,16 +1,21 @@
 //! The demo in a browser: what the page calls.
 
+use asvgf_demo::action::Action;
 use asvgf_demo::app::Demo;
 use asvgf_demo::gpu;
 use asvgf_demo::state::State;
+use eframe::egui::Context;
 use eframe::web_sys::HtmlCanvasElement;
 use eframe::{WebOptions, WebRunner};
+use std::cell::OnceCell;
+use std::rc::Rc;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 /// A canvas with the demo on it.
 #[wasm_bindgen]
 pub struct Page {
     runner: WebRunner,
+    context: Rc<OnceCell<Context>>,
 }
 
 #[wasm_bindgen]
@@ -19,18 +24,31 @@ impl Page {
     pub async fn start(canvas: HtmlCanvasElement) -> Result<Page, JsValue> {
         let runner = WebRunner::new();
         let options = WebOptions { wgpu_options: gpu::configuration(), ..Default::default() };
-        let create: eframe::AppCreator<'static> = Box::new(|context| {
+        let context = Rc::<OnceCell<Context>>::default();
+        let kept = Rc::clone(&context);
+        let create: eframe::AppCreator<'static> = Box::new(move |context| {
+            kept.get_or_init(|| context.egui_ctx.clone());
             let gpu = context.wgpu_render_state.as_ref().ok_or("this browser has no WebGPU")?;
             Ok(Box::new(Demo::new(gpu, State::default())?))
         });
         runner.start(canvas, options, create).await?;
-        Ok(Self { runner })
+        Ok(Self { runner, context })
     }
 
     /// Chooses what a saved file says.
     pub fn choose(&self, saved: &str) -> Result<(), JsValue> {
         let state = State::load(saved)?;
         self.demo(|demo| demo.adopt(state))
+    }
+
+    /// What was chosen, as a saved file says it.
+    pub fn chosen(&self) -> Result<String, JsValue> {
+        self.demo(|demo| demo.state.save())
+    }
+
+    /// Asks for one frame, while time stands still.
+    pub fn step(&self) -> Result<(), JsValue> {
+        self.demo(|demo| demo.act(Action::Step))
     }
 
     /// Frames that were rendered so far.
@@ -55,6 +73,8 @@ impl Page {
 
     fn demo<T>(&self, act: impl FnOnce(&mut Demo) -> T) -> Result<T, JsValue> {
         let mut demo = self.runner.app_mut::<Demo>().ok_or("the demo has stopped")?;
+        // A window that stands still would not notice.
+        self.context.get().into_iter().for_each(Context::request_repaint);
         Ok(act(&mut demo))
     }
 }

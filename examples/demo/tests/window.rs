@@ -3,6 +3,7 @@
 mod driver;
 
 use asvgf::View;
+use asvgf_demo::action::Action;
 use asvgf_demo::state::{Motion, Source, State};
 use driver::{Window, alike, mean};
 use eframe::egui::{Key, vec2};
@@ -198,6 +199,38 @@ fn a_broken_file_is_named_and_the_old_scene_stays() {
 }
 
 #[test]
+fn files_in_memory_are_opened_as_a_page_gets_them() {
+    let mut window = Window::open(SIZE, paused());
+    let mut receive = |files: &[(&str, &str)]| {
+        let files = files.iter().map(|(name, text)| (name.into(), text.as_bytes().to_vec())).collect();
+        window.demo_mut().act(Action::Receive(files));
+        window.settle();
+    };
+    receive(&[
+        ("square.obj", "mtllib red.mtl\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nusemtl red\nf 1 2 3 4\n"),
+        ("red.mtl", "newmtl red\nKd 0.8 0 0\n"),
+    ]);
+    let radiance = window.radiance(Source::Adaptive);
+    assert_eq!(window.demo().state.scene, "square.obj");
+    assert!(radiance.iter().any(|[red, green, _]| *red > 0.01 && *green < 0.01 * red), "red, under a sky");
+    let mut receive = |name: &str, text: &str| {
+        window.demo_mut().act(Action::Receive([(name.into(), text.as_bytes().to_vec())].into()));
+        window.settle();
+        window.demo().messages()
+    };
+    assert_eq!(
+        receive("good.json", r#"{"left": "Noisy", "paused": true, "scene": "square.obj"}"#),
+        "good.json was loaded"
+    );
+    for (name, text) in [("broken.glb", "this is not glTF"), ("wood.png", ""), ("bad.json", "{]")] {
+        let messages = receive(name, text);
+        assert!(messages.contains(name), "{messages}");
+    }
+    assert_eq!(window.demo().state.scene, "square.obj");
+    assert_eq!(window.demo().state.left, Source::Noisy);
+}
+
+#[test]
 fn what_was_chosen_can_be_loaded_and_a_broken_file_changes_nothing() {
     let mut window = Window::open(SIZE, paused());
     let good = window.folder.file("good.json", br#"{"left": "Noisy", "paused": true, "settings": {"iterations": 2}}"#);
@@ -243,7 +276,7 @@ fn a_lost_device_is_told() {
 
 #[test]
 fn pictures_are_written() {
-    let mut window = Window::open(SIZE, paused());
+    let mut window = Window::open(SIZE, State { split: false, ..paused() });
     let shown = window.picture(Source::Adaptive);
     for name in ["picture.png", "picture.exr"] {
         let path = window.folder.path(name);
@@ -255,4 +288,33 @@ fn pictures_are_written() {
     let (width, height, texels) = asvgf::image_io::read_png(window.folder.path("picture.png")).unwrap();
     assert_eq!([width, height], shown.size);
     assert!(texels == shown.texels, "the file holds what is shown");
+}
+
+#[test]
+fn a_split_picture_is_written_with_both_halves() {
+    // Lamps that have just gone out make the halves as different as can be.
+    let mut window = Window::open(SIZE, State { split: true, divider: 0.3, ..State::default() });
+    window.until(LIT + 3);
+    window.state(|state| state.paused = true);
+    window.settle();
+    for name in ["split.png", "split.exr"] {
+        window.demo_mut().picture.wanted_file = Some(window.folder.path(name));
+        window.settle();
+        window.settle();
+    }
+    let halves = [Source::Adaptive, Source::Constant];
+    let films = halves.map(|source| window.picture(source));
+    let width = films[0].size[0] as usize;
+    let divider = (0.3 * width as f32).round() as usize;
+    let half = |texel: usize| usize::from(texel % width >= divider);
+    let (.., texels) = asvgf::image_io::read_png(window.folder.path("split.png")).unwrap();
+    for (i, texel) in texels.into_iter().enumerate() {
+        let expected = if i % width == divider { [255; 4] } else { films[half(i)].texels[i] };
+        assert_eq!(texel, expected, "texel {} of row {}", i % width, i / width);
+    }
+    let numbers = asvgf::image_io::read_exr(window.folder.path("split.exr")).unwrap();
+    let radiance = halves.map(|source| window.radiance(source));
+    let expected: Vec<f32> = (0..width * films[0].size[1] as usize).map(|i| radiance[half(i)][i][1]).collect();
+    assert!(numbers.get("G").unwrap() == expected, "numbers have no divider");
+    assert!(radiance[0] != radiance[1]);
 }

@@ -33,7 +33,7 @@ impl<'a> Elements<'a> {
     /// Opens an accessor that must hold elements of `shape` made of one of `components`. `user` is the element that
     /// refers to it, and to which errors are attributed.
     pub fn open(
-        source: &'a Source,
+        source: &'a Source<'a>,
         index: Index<Accessor>,
         shape: Type,
         components: &[ComponentType],
@@ -133,7 +133,7 @@ impl Unopened {
 
 impl<'a> Strided<'a> {
     fn open(
-        source: &'a Source,
+        source: &'a Source<'a>,
         view: Index<buffer::View>,
         offset: u64,
         count: u64,
@@ -169,7 +169,7 @@ impl<'a> Strided<'a> {
 }
 
 fn open_sparse<'a>(
-    source: &'a Source,
+    source: &'a Source<'a>,
     sparse: &sparse::Sparse,
     count: u64,
     size: usize,

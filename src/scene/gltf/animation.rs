@@ -17,7 +17,12 @@ use crate::scene::load::report::{Fault, Report};
 const MAX_VALUES: usize = 1 << 25;
 
 /// Reads all animations, which keep their indices. Channels of nodes that are not in the scene are left out.
-pub(super) fn read_all(source: &Source, report: &mut Report, scene: &mut Scene, places: &Places) -> Result<(), Fault> {
+pub(super) fn read_all(
+    source: &Source<'_>,
+    report: &mut Report,
+    scene: &mut Scene,
+    places: &Places,
+) -> Result<(), Fault> {
     let mut values = 0;
     for (index, animation) in source.root.animations.iter().enumerate() {
         let mut channels = Vec::new();
@@ -58,7 +63,7 @@ pub(super) fn read_all(source: &Source, report: &mut Report, scene: &mut Scene, 
     Ok(())
 }
 
-fn read(source: &Source, sampler: &Sampler, target: Target, shape: Type, element: &str) -> Result<Channel, Fault> {
+fn read(source: &Source<'_>, sampler: &Sampler, target: Target, shape: Type, element: &str) -> Result<Channel, Fault> {
     let (interpolation, per_key) = match sampler.interpolation {
         Checked::Valid(json::Interpolation::Step) => (Interpolation::Step, 1),
         Checked::Valid(json::Interpolation::Linear) => (Interpolation::Linear, 1),

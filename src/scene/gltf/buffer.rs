@@ -9,7 +9,6 @@ use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf::json::Root;
 
-use crate::image_io::read_file;
 use crate::scene::load::folder::Folder;
 use crate::scene::load::report::Fault;
 
@@ -20,7 +19,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 /// Reads all buffers of a file. Those that name the same file share its bytes.
-pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder) -> Result<Vec<Rc<[u8]>>, Fault> {
+pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder<'_>) -> Result<Vec<Rc<[u8]>>, Fault> {
     let mut files: HashMap<PathBuf, Rc<[u8]>> = HashMap::new();
     let read = |(index, buffer): (usize, &gltf::json::Buffer)| {
         let element = format!("buffers[{index}]");
@@ -33,7 +32,7 @@ pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder) -> R
                     match files.get(&path) {
                         Some(bytes) => bytes.clone(),
                         None => {
-                            let bytes = read_file(&path).map_err(|reason| fault(format!("\"{uri}\" {reason}")))?;
+                            let bytes = folder.read(&path).map_err(|reason| fault(format!("\"{uri}\" {reason}")))?;
                             files.entry(path).or_insert(bytes.into()).clone()
                         }
                     }

@@ -1,9 +1,7 @@
 //! Textures and the images behind them, each decoded once.
 
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::Read as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use gltf::json::image::Image as ImageSource;
 use gltf::json::texture::{Info, MagFilter, WrappingMode};
@@ -12,7 +10,6 @@ use gltf::json::{Index, Texture as TextureSource};
 
 use super::buffer::data_uri;
 use super::source::Source;
-use crate::image_io::read_file;
 use crate::scene::description::{Image, Texture, Wrap};
 use crate::scene::load::decode::{decode, recognise};
 use crate::scene::load::report::{Fault, Report};
@@ -22,7 +19,7 @@ const MAX_TEXELS: usize = 1 << 30;
 
 /// The images of a file, as far as they were asked for.
 pub(super) struct Images<'a> {
-    source: &'a Source,
+    source: &'a Source<'a>,
     /// What was decoded.
     pub images: Vec<Image>,
     texels: usize,
@@ -33,7 +30,7 @@ pub(super) struct Images<'a> {
 }
 
 impl<'a> Images<'a> {
-    pub fn new(source: &'a Source) -> Self {
+    pub fn new(source: &'a Source<'a>) -> Self {
         Self { source, images: Vec::new(), texels: 0, known: HashMap::new(), files: HashMap::new() }
     }
 
@@ -65,10 +62,10 @@ impl<'a> Images<'a> {
         let unused = self.source.root.images.iter().enumerate().filter(|(index, _)| !self.known.contains_key(index));
         for (index, image) in unused {
             let Some(uri) = image.uri.as_deref().filter(|uri| data_uri(uri).is_none()) else { continue };
-            let checked =
-                self.source.folder.locate_uri(uri).and_then(|path| {
-                    recognise(&start(&path)).map(|_| ()).map_err(|reason| format!("\"{uri}\" {reason}"))
-                });
+            let folder = &self.source.folder;
+            let checked = folder.locate_uri(uri).and_then(|path| {
+                recognise(&folder.start(&path)).map(|_| ()).map_err(|reason| format!("\"{uri}\" {reason}"))
+            });
             if let Err(reason) = checked {
                 report.warn(format!("images[{index}]"), format!("{reason}; it is not needed"));
             }
@@ -113,7 +110,7 @@ impl<'a> Images<'a> {
             if let Some(&known) = self.files.get(&path) {
                 return Ok(known);
             }
-            let added = read_file(&path).and_then(|bytes| self.add(&name, &bytes));
+            let added = self.source.folder.read(&path).and_then(|bytes| self.add(&name, &bytes));
             self.files.insert(path, added.as_ref().ok().copied());
             return added.map(Some).map_err(|reason| format!("\"{uri}\" {reason}"));
         }
@@ -131,15 +128,6 @@ impl<'a> Images<'a> {
         self.images.push(image);
         Ok(self.images.len() - 1)
     }
-}
-
-/// The first bytes of a file, as many as there are: enough to recognise it by.
-fn start(path: &Path) -> Vec<u8> {
-    let mut start = Vec::new();
-    if path.is_file() && File::open(path).and_then(|file| file.take(64).read_to_end(&mut start)).is_err() {
-        start.clear();
-    }
-    start
 }
 
 /// The map of KHR_texture_transform: scale, then rotate, then offset. v grows downwards in the image, so that a

@@ -16,7 +16,7 @@ const SPECULAR: f32 = 0.04;
 const BLEND_CUTOFF: f32 = 0.5;
 
 /// Reads all materials, which keep their indices, and the images that they use.
-pub(super) fn read_all(source: &Source, report: &mut Report, scene: &mut Scene) -> Result<(), Fault> {
+pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Result<(), Fault> {
     let mut images = Images::new(source);
     for (index, material) in source.root.materials.iter().enumerate() {
         scene.materials.push(read(material, &format!("materials[{index}]"), &mut images, report)?);

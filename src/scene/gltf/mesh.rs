@@ -20,7 +20,7 @@ const MAX_TRIANGLES: usize = 1 << 26;
 
 /// The meshes of a file, as far as they were asked for.
 pub(super) struct Meshes<'a> {
-    source: &'a Source,
+    source: &'a Source<'a>,
     triangles: usize,
     default_material: Option<usize>,
     /// Which meshes of the scene each mesh of the file became: one per primitive.
@@ -220,7 +220,7 @@ fn triangles(mode: Mode, corners: &[u32], kept: &[u32]) -> Vec<[u32; 3]> {
 }
 
 fn open_attribute<'a>(
-    source: &'a Source,
+    source: &'a Source<'a>,
     index: Index<gltf::json::Accessor>,
     shape: Type,
     vertices: usize,
@@ -277,7 +277,7 @@ fn geometric_normals(mesh: &Mesh) -> Vec<Vec3> {
 }
 
 /// Whether vertex colours change nothing, as those that some exporters always write.
-fn is_white(source: &Source, colors: Index<gltf::json::Accessor>, kept: &[u32]) -> bool {
+fn is_white(source: &Source<'_>, colors: Index<gltf::json::Accessor>, kept: &[u32]) -> bool {
     let white = |shape| {
         let elements = Elements::open(source, colors, shape, REAL, "COLOR_0");
         let white = |elements: Elements| gather(&elements, kept).iter().all(|color: &[f32; 3]| *color == [1.0; 3]);

@@ -16,26 +16,26 @@ mod source;
 
 use std::path::Path;
 
-use crate::image_io::read_file;
 use crate::scene::description::{Scene, SceneError};
 use crate::scene::load::Loaded;
+use crate::scene::load::files::Files;
 use crate::scene::load::folder::Folder;
 use crate::scene::load::report::{Fault, Report};
 use source::Source;
 
 /// Reads a glTF file.
-pub(crate) fn load(path: &Path) -> Result<Loaded, SceneError> {
+pub(crate) fn load(files: Files<'_>, path: &Path) -> Result<Loaded, SceneError> {
     let mut report = Report::new(path);
-    match read(path, &mut report) {
+    match read(files, path, &mut report) {
         Ok(scene) => report.finish(scene),
         Err(fault) => Err(report.error(fault)),
     }
 }
 
-fn read(path: &Path, report: &mut Report) -> Result<Scene, Fault> {
+fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fault> {
     let unreadable = |reason: String| Fault::new("file", reason);
-    let folder = Folder::of(path).map_err(|error| unreadable(format!("cannot be read: {error}")))?;
-    let bytes = read_file(path).map_err(unreadable)?;
+    let folder = Folder::of(files, path).map_err(unreadable)?;
+    let bytes = files.read(path).map_err(unreadable)?;
     let container = container::open(&bytes, report)?;
     let buffers = buffer::read_all(&container.root, container.binary, &folder)?;
     let source = Source { root: container.root, buffers, folder };

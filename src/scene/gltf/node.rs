@@ -20,7 +20,7 @@ pub(super) type Places = HashMap<usize, usize>;
 type Link = (Index<NodeSource>, Option<Index<NodeSource>>);
 
 /// Reads the nodes of the default scene, and the meshes, lights and cameras that they place.
-pub(super) fn read_all(source: &Source, report: &mut Report, scene: &mut Scene) -> Result<Places, Fault> {
+pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Result<Places, Fault> {
     let lights = source.root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
     let lights = lights.map_or(&[][..], |extension| &extension.lights);
     for (index, light) in lights.iter().enumerate() {
@@ -68,7 +68,7 @@ pub(super) fn read_all(source: &Source, report: &mut Report, scene: &mut Scene) 
 }
 
 /// The nodes of the default scene, each with its parent, parents first.
-fn ordered(source: &Source, report: &mut Report) -> Result<Vec<Link>, Fault> {
+fn ordered(source: &Source<'_>, report: &mut Report) -> Result<Vec<Link>, Fault> {
     let roots = roots(source, report)?;
     let children = |node: Index<NodeSource>| -> Result<&[Index<NodeSource>], Fault> {
         let description = source.get(node, &format!("nodes[{node}]"))?;
@@ -115,7 +115,7 @@ fn ordered(source: &Source, report: &mut Report) -> Result<Vec<Link>, Fault> {
 }
 
 /// The roots of the default scene: the one that the file names, else its first, else every node without a parent.
-fn roots(source: &Source, report: &mut Report) -> Result<Vec<Index<NodeSource>>, Fault> {
+fn roots(source: &Source<'_>, report: &mut Report) -> Result<Vec<Index<NodeSource>>, Fault> {
     let root = &source.root;
     if let Some(scene) = root.scene {
         return Ok(source.get(scene, "scene")?.nodes.clone());
@@ -172,7 +172,7 @@ fn separate(transform: Transform, element: &str, report: &mut Report) -> Transfo
 }
 
 /// The nodes that some animation moves.
-fn animated(source: &Source) -> HashSet<usize> {
+fn animated(source: &Source<'_>) -> HashSet<usize> {
     let channels = source.root.animations.iter().flat_map(|animation| &animation.channels);
     channels.map(|channel| channel.target.node.value()).collect()
 }
@@ -217,7 +217,7 @@ fn read_cone((inner, outer): (f32, f32), element: &str, report: &mut Report) -> 
 }
 
 /// Reads the perspective cameras; the result tells for each camera of the file which one of the scene it became.
-fn read_cameras(source: &Source, report: &mut Report, scene: &mut Scene) -> Result<Vec<Option<usize>>, Fault> {
+fn read_cameras(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Result<Vec<Option<usize>>, Fault> {
     let mut places = Vec::new();
     for (index, camera) in source.root.cameras.iter().enumerate() {
         let element = format!("cameras[{index}]");

@@ -8,13 +8,13 @@ use crate::scene::load::folder::Folder;
 use crate::scene::load::report::Fault;
 
 /// An opened file: its JSON, its bytes and its folder.
-pub(super) struct Source {
+pub(super) struct Source<'a> {
     pub root: Root,
     pub buffers: Vec<Rc<[u8]>>,
-    pub folder: Folder,
+    pub folder: Folder<'a>,
 }
 
-impl Source {
+impl Source<'_> {
     /// What an index refers to; `user` is the element that holds the index.
     pub fn get<T>(&self, index: Index<T>, user: &str) -> Result<&T, Fault>
     where

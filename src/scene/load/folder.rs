@@ -1,19 +1,33 @@
 //! Files next to a scene file. A scene file may come from anywhere, so that what it names is not to be trusted: it
 //! may only name files in its own folder.
 
-use std::io;
+use std::borrow::Cow;
 use std::path::{Component, Path, PathBuf};
 
+use super::files::Files;
+
 /// The folder that a scene file may refer to.
-pub(crate) struct Folder {
+pub(crate) struct Folder<'a> {
+    files: Files<'a>,
     root: PathBuf,
 }
 
-impl Folder {
-    /// The folder that holds `file`.
-    pub fn of(file: &Path) -> io::Result<Self> {
-        let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Ok(Self { root: parent.canonicalize()? })
+impl<'a> Folder<'a> {
+    /// The folder that holds the file at `path`. The error is a reason.
+    pub fn of(files: Files<'a>, path: &Path) -> Result<Self, String> {
+        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Ok(Self { files, root: files.folder(parent)? })
+    }
+
+    /// The bytes of a file that was located. The error is a reason.
+    pub fn read(&self, path: &Path) -> Result<Cow<'a, [u8]>, String> {
+        self.files.read(path)
+    }
+
+    /// The first bytes of a file that was located, as many as there are: enough to recognise it by.
+    #[cfg(feature = "gltf")]
+    pub fn start(&self, path: &Path) -> Cow<'a, [u8]> {
+        self.files.start(path)
     }
 
     /// The file that a relative, percent-encoded URI stands for. The error is a reason.
@@ -38,8 +52,7 @@ impl Folder {
                 Component::Prefix(_) | Component::RootDir => return Err(outside()),
             };
         }
-        let path =
-            self.root.join(name).canonicalize().map_err(|error| format!("\"{name}\" cannot be read: {error}"))?;
+        let path = self.files.file(&self.root, name).map_err(|reason| format!("\"{name}\" {reason}"))?;
         // Links were followed by now, and they may lead anywhere.
         if path.starts_with(&self.root) { Ok(path) } else { Err(outside()) }
     }

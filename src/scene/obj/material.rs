@@ -4,7 +4,6 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 
 use super::text::{numbers, statements};
-use crate::image_io::read_file;
 use crate::scene::description::{Alpha, Material, Scene, Texture, Wrap};
 use crate::scene::load::decode::decode;
 use crate::scene::load::folder::Folder;
@@ -22,14 +21,14 @@ pub(super) fn grey() -> Material {
 /// Returns the index of each name; where a name is defined twice, the last definition counts.
 pub(super) fn read_libraries(
     statements: &[(String, usize)],
-    folder: &Folder,
+    folder: &Folder<'_>,
     report: &mut Report,
     scene: &mut Scene,
 ) -> Result<HashMap<String, usize>, Fault> {
     let mut names = HashMap::new();
     let mut textures = Textures { folder, known: HashMap::new() };
     for path in locate(statements, folder, report) {
-        let bytes = match read_file(&path) {
+        let bytes = match folder.read(&path) {
             Ok(bytes) => bytes,
             Err(reason) => {
                 report.warn(path.display().to_string(), format!("{reason}; its materials are drawn in grey"));
@@ -47,7 +46,7 @@ pub(super) fn read_libraries(
 }
 
 /// The library files, each once.
-fn locate(statements: &[(String, usize)], folder: &Folder, report: &mut Report) -> Vec<PathBuf> {
+fn locate(statements: &[(String, usize)], folder: &Folder<'_>, report: &mut Report) -> Vec<PathBuf> {
     let mut paths = Vec::new();
     for (argument, line) in statements {
         // Either one name that may hold spaces, or several names without.
@@ -263,7 +262,7 @@ fn vector(rest: &mut &str, vector: &mut [f32; 2]) {
 
 /// The images of all libraries, each read once.
 struct Textures<'a> {
-    folder: &'a Folder,
+    folder: &'a Folder<'a>,
     known: HashMap<PathBuf, Option<usize>>,
 }
 
@@ -277,7 +276,7 @@ impl Textures<'_> {
             }
         };
         let image = *self.known.entry(path.clone()).or_insert_with(|| {
-            match read_file(&path).and_then(|bytes| decode(&map.file, &bytes)) {
+            match self.folder.read(&path).and_then(|bytes| decode(&map.file, &bytes)) {
                 Ok(image) => {
                     scene.images.push(image);
                     Some(scene.images.len() - 1)

@@ -11,25 +11,25 @@ use std::path::Path;
 
 use tobj::LoadOptions;
 
-use crate::image_io::read_file;
 use crate::scene::description::{Material, Mesh, Node, Scene, SceneError};
 use crate::scene::load::Loaded;
+use crate::scene::load::files::Files;
 use crate::scene::load::folder::Folder;
 use crate::scene::load::report::{Fault, Report};
 
 /// Reads an OBJ file and the material libraries that it names.
-pub(crate) fn load(path: &Path) -> Result<Loaded, SceneError> {
+pub(crate) fn load(files: Files<'_>, path: &Path) -> Result<Loaded, SceneError> {
     let mut report = Report::new(path);
-    match read(path, &mut report) {
+    match read(files, path, &mut report) {
         Ok(scene) => report.finish(scene),
         Err(fault) => Err(report.error(fault)),
     }
 }
 
-fn read(path: &Path, report: &mut Report) -> Result<Scene, Fault> {
+fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fault> {
     let unreadable = |reason: String| Fault::new("file", reason);
-    let folder = Folder::of(path).map_err(|error| unreadable(format!("cannot be read: {error}")))?;
-    let bytes = read_file(path).map_err(unreadable)?;
+    let folder = Folder::of(files, path).map_err(unreadable)?;
+    let bytes = files.read(path).map_err(unreadable)?;
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(Fault::new("file", "is empty"));
     }

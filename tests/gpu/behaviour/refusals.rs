@@ -1,12 +1,12 @@
 //! What cannot be done is refused by name, and costs no history.
 
-use crate::common::gpu::gpu;
+use crate::common::gpu::{Gpu, gpu};
 use crate::common::stage::Stage;
 use asvgf::{
     Camera, Denoiser, DenoiserDescriptor, Error, FilterSettings, Gradient, Mode, Settings, TracerSettings, View,
     ViewOptions,
 };
-use wgpu::{TextureFormat, TextureUsages, TextureView};
+use wgpu::{Features, Instance, InstanceDescriptor, TextureFormat, TextureUsages, TextureView};
 
 const SIZE: [u32; 2] = [24, 16];
 
@@ -128,6 +128,17 @@ fn timing_on_a_device_without_timestamps() {
     let error = Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap_err();
     let missing = wgpu::Features::TIMESTAMP_QUERY;
     assert!(matches!(error, Error::Feature { missing: m, .. } if m == missing), "{error}");
+}
+
+#[test]
+fn pipelines_of_another_device() {
+    let instance = Instance::new(InstanceDescriptor::new_without_display_handle_from_env());
+    let [own, other] = [0; 2].map(|_| Gpu::of(&instance, Features::empty()).unwrap());
+    let plain = DenoiserDescriptor { size: SIZE, ..Default::default() };
+    let pipelines = Denoiser::new(&own.device, &own.queue, &plain).unwrap().pipelines().clone();
+    let shared = DenoiserDescriptor { pipelines: Some(pipelines), ..plain };
+    assert!(matches!(Denoiser::new(&other.device, &other.queue, &shared), Err(Error::OtherDevice)));
+    assert!(Denoiser::new(&own.device, &own.queue, &shared).is_ok());
 }
 
 #[test]

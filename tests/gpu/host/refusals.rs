@@ -181,3 +181,24 @@ fn gradients_that_the_frames_cannot_have() {
         assert!(matches!(error, Error::GradientSource { asked, .. } if asked == gradient), "{error}");
     }
 }
+
+#[test]
+fn a_view_of_a_frame_that_was_dropped_says_what_to_finish() {
+    let frames = recorded(Settings::adaptive());
+    let target = target();
+    let mut tried = denoiser(Settings::adaptive());
+    let show =
+        |tried: &mut Denoiser| gpu().submit(|e| tried.show(&gpu().device, e, View::Depth, Default::default(), &target));
+    let drops: [fn(&mut Denoiser); 3] =
+        [|_| {}, Denoiser::reset, |tried| tried.set_settings(Settings::classic()).unwrap()];
+    for drop in drops {
+        replay(&mut tried, &frames[..1]);
+        show(&mut tried).unwrap();
+        let host = Uploaded::new(gpu(), &frames[1]);
+        gpu().submit(|e| tried.begin_frame(&gpu().device, e, &host.surfaces())).unwrap();
+        drop(&mut tried);
+        let error = show(&mut tried).unwrap_err();
+        assert!(matches!(error, Error::NoView { view: View::Depth, .. }), "{error}");
+        assert!(error.to_string().contains("a frame was begun"), "{error}");
+    }
+}

@@ -1,0 +1,92 @@
+//! Where files come from: the disk, or memory.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+
+use crate::image_io::read_file;
+
+/// All files that there are.
+#[derive(Clone, Copy)]
+pub(crate) enum Files<'a> {
+    Disk,
+    /// By their paths.
+    Memory(&'a BTreeMap<PathBuf, Vec<u8>>),
+}
+
+impl<'a> Files<'a> {
+    /// The one way to write the path of a folder. The error is a reason.
+    pub fn folder(self, path: &Path) -> Result<PathBuf, String> {
+        match self {
+            Self::Disk => canonical(path),
+            Self::Memory(_) => Ok(plain(path)),
+        }
+    }
+
+    /// The same of a file that there is; links are followed.
+    ///
+    /// Browsers do not tell in which folder a dropped file lay: in memory, where there is none of that path, the file of
+    /// the same name in `root` stands for it.
+    pub fn file(self, root: &Path, name: &str) -> Result<PathBuf, String> {
+        let path = root.join(name);
+        let Self::Memory(files) = self else { return canonical(&path) };
+        let exact = plain(&path);
+        let beside = exact.file_name().map(|name| root.join(name));
+        [Some(exact), beside]
+            .into_iter()
+            .flatten()
+            .find(|path| files.contains_key(path))
+            .ok_or_else(|| "is not among the files that were given".into())
+    }
+
+    /// The bytes of a file. The error is a reason.
+    pub fn read(self, path: &Path) -> Result<Cow<'a, [u8]>, String> {
+        match self {
+            Self::Disk => read_file(path).map(Cow::Owned),
+            Self::Memory(files) => match files.get(path) {
+                Some(bytes) => Ok(Cow::Borrowed(bytes)),
+                None => Err("is not among the files that were given".into()),
+            },
+        }
+    }
+
+    /// The first bytes of a file, as many as there are: enough to recognise it by.
+    #[cfg(feature = "gltf")]
+    pub fn start(self, path: &Path) -> Cow<'a, [u8]> {
+        use std::{fs::File, io::Read as _};
+        /// Of the formats of images, none has a longer signature.
+        const START: usize = 64;
+        match self {
+            Self::Disk => {
+                let mut start = Vec::new();
+                let read = |file: File| file.take(START as u64).read_to_end(&mut start);
+                // Pipes and devices may never end.
+                let read = path.is_file().then(|| File::open(path).and_then(read));
+                Cow::Owned(if matches!(read, Some(Ok(_))) { start } else { Vec::new() })
+            }
+            Self::Memory(files) => {
+                let bytes = files.get(path).map_or(&[][..], Vec::as_slice);
+                Cow::Borrowed(&bytes[..bytes.len().min(START)])
+            }
+        }
+    }
+}
+
+fn canonical(path: &Path) -> Result<PathBuf, String> {
+    path.canonicalize().map_err(|error| format!("cannot be read: {error}"))
+}
+
+/// A path without `.` and `..`.
+fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                plain.pop();
+            }
+            other => plain.push(other),
+        }
+    }
+    plain
+}
