@@ -4,6 +4,8 @@
 //! the denoiser's images, milliseconds of a frame's passes, and of the first frame, in which its shaders are compiled. On an adapter
 //! that is the CPU, milliseconds are processor time over the number of cores. Set `MESA_SHADER_CACHE_DISABLE=1` there: compiled
 //! shaders are else kept from run to run. Compare only figures of one run.
+//!
+//! Then what each trait costs a scene that has next to nothing of it: a speck that nobody sees.
 
 #[path = "../examples/support/film.rs"]
 #[allow(dead_code, reason = "shared with the examples")]
@@ -15,7 +17,9 @@ mod gpu;
 #[allow(dead_code, reason = "shared with the examples")]
 mod times;
 
-use asvgf::scene::{self, GpuScene, builtin};
+use asvgf::scene::{
+    self, Alpha, Environment, GpuScene, Image, Light, LightKind, Material, Mesh, Node, Scene, Texture, builtin,
+};
 use asvgf::{Camera, DenoiserDescriptor, FilterSettings, Frame, Gradient, Settings, Specialize};
 use film::Film;
 use gpu::Gpu;
@@ -53,6 +57,43 @@ fn cases() -> Vec<Case> {
     ]
 }
 
+/// A trait, and how a scene gets a speck of it.
+type Trait = (&'static str, fn(&mut Scene));
+
+const TRAITS: [Trait; 7] = [
+    ("… and a texture", |scene| speck(scene, textured, false, false)),
+    ("… and a mask", |scene| speck(scene, |s| Material { alpha: Alpha::Mask(0.5), ..textured(s) }, false, false)),
+    ("… and normals", |scene| speck(scene, |_| Material::default(), true, false)),
+    ("… and gloss", |scene| speck(scene, |_| Material { metallic: 1.0, ..Default::default() }, false, false)),
+    ("… and a mesh that moves", |scene| speck(scene, |_| Material::default(), false, true)),
+    ("… and a light without area", |scene| {
+        scene.lights.push(Light { kind: LightKind::Point, intensity: [1e-3; 3], range: 1.0 });
+        scene.nodes.push(Node { light: Some(scene.lights.len() - 1), ..Default::default() });
+    }),
+    ("… and light from all around", |scene| scene.environment = Some(Environment::uniform([1e-3; 3]))),
+];
+
+/// A material with a white image.
+fn textured(scene: &mut Scene) -> Material {
+    scene.images.push(Image { name: "white".into(), width: 1, height: 1, texels: vec![[255; 4]] });
+    Material { base_color_texture: Some(Texture::new(scene.images.len() - 1)), ..Default::default() }
+}
+
+/// Adds a triangle of a tenth of a millimetre, far below everything.
+fn speck(scene: &mut Scene, material: fn(&mut Scene) -> Material, normals: bool, movable: bool) {
+    let material = material(scene);
+    scene.materials.push(material);
+    scene.meshes.push(Mesh {
+        positions: vec![[0.0, -99.0, 0.0], [1e-4, -99.0, 0.0], [0.0, -99.0, 1e-4]],
+        normals: if normals { vec![[0.0, 1.0, 0.0]; 3] } else { Vec::new() },
+        uvs: [vec![[0.0; 2]; 3], Vec::new()],
+        triangles: vec![[0, 2, 1]],
+        material: scene.materials.len() - 1,
+        ..Default::default()
+    });
+    scene.nodes.push(Node { meshes: vec![scene.meshes.len() - 1], movable, ..Default::default() });
+}
+
 fn main() {
     let frames = std::env::args().filter_map(|a| a.parse().ok()).next().unwrap_or(15);
     let gpu = Gpu::new().unwrap_or_else(|e| {
@@ -66,17 +107,33 @@ fn main() {
         for case in cases() {
             // A device of its own: lavapipe forgets shaders when a device has many.
             let gpu = Gpu::new().expect("there was an adapter");
-            println!("{:<30}{}", case.name, row(&gpu, name, &case, frames));
+            println!("{:<30}{}", case.name, row(&gpu, scene_of(name, case.animation), &case, frames));
+        }
+    }
+    let cases = cases();
+    let case = &cases[1];
+    for name in ["cornell", "pillars"] {
+        println!("\n{name}, {}", case.name);
+        let alone: Trait = ("alone", |_| ());
+        for (what, add) in [alone].into_iter().chain(TRAITS) {
+            let gpu = Gpu::new().expect("there was an adapter");
+            let mut scene = scene_of(name, case.animation);
+            add(&mut scene);
+            println!("{what:<30}{}", row(&gpu, scene, case, frames));
         }
     }
 }
 
-/// Dispatches, bytes per pixel, milliseconds of a frame and of the first.
-fn row(gpu: &Gpu, name: &str, case: &Case, frames: usize) -> String {
-    let scene = builtin::scene(name, case.animation).unwrap_or_else(|| {
+/// A built-in scene, or the one with textures.
+fn scene_of(name: &str, animation: &str) -> Scene {
+    builtin::scene(name, animation).unwrap_or_else(|| {
         let room = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/textured/room.glb");
         scene::load(&room).expect("the crate's own scene").scene
-    });
+    })
+}
+
+/// Dispatches, bytes per pixel, milliseconds of a frame and of the first.
+fn row(gpu: &Gpu, scene: Scene, case: &Case, frames: usize) -> String {
     let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).expect("it fits");
     let settings = Settings { filter: case.filter.clone(), ..Settings::adaptive() };
     let descriptor = DenoiserDescriptor { size: SIZE, settings, specialize: case.specialize, ..Default::default() };

@@ -1,8 +1,8 @@
 #define_import_path asvgf::packing
 
 // Three non-negative floats in 62 bits: a common 8-bit exponent and 18-bit mantissas. The range is that of f32 (steps of
-// 2⁻¹²⁶ … values of 2¹²⁶) and the largest channel is exact to 2⁻¹⁸: a running average of weight 1/n goes on moving until
-// the difference is n·2⁻¹⁸, where one stored in f16 stalls 2⁷ times earlier, and overflows at 65504.
+// 2⁻¹²⁶ … values of 2¹²⁶) and the largest channel is exact to 2⁻¹⁸; f16 would overflow at 65504, and a fed-back average in it
+// stall 2⁷ times earlier.
 // After the RGB9E5 format of EXT_texture_shared_exponent, with more of both.
 fn pack_rgb(color: vec3<f32>) -> vec2<u32> {
     let largest = max(max(color.x, color.y), color.z);
@@ -51,15 +51,6 @@ fn tap_color(tap: vec2<u32>) -> vec3<f32> {
 fn tap_variance(tap: vec2<u32>) -> f32 {
     let deviation = unpack_unsigned(tap.y >> 16u);
     return deviation * deviation;
-}
-
-// The filtered colour, in the format of the image in which the last pass of the filter left it.
-fn filtered_color(texel: vec2<u32>) -> vec3<f32> {
-#ifdef TEMPORAL_ONLY
-    return unpack_rgb(texel);
-#else
-    return tap_color(texel);
-#endif
 }
 
 // A unit vector as three signed 10-bit numbers (0.06° at worst). Unlike an octahedral map it needs no normalisation and
