@@ -106,7 +106,7 @@ fn report(mut command: Command) -> Result<(), Box<dyn Error>> {
     let rows: Vec<_> = chapters.iter().flat_map(|chapter| &chapter.summaries).flat_map(|s| s.rows.clone()).collect();
     write(command, "report.csv", &tables::csv(&rows))?;
     write(command, "report.json", &tables::json(&rows)?)?;
-    let context = Context { facts: tables::facts(command, &gpu), dropped, paths: suite.paths };
+    let context = Context { facts: tables::facts(command, &gpu), dropped };
     let text = words::report(&context, &chapters) + &growth.unwrap_or_default();
     write(command, "report.md", &text)?;
     say(&format!("{}\n", command.out.join("report.md").display()));

@@ -1,7 +1,7 @@
 //! What the numbers say: who is best for the time, and how much faster.
 
 use crate::fit::{Power, line};
-use crate::methods::{CONTROL, DEFAULT, Group, ONE_PATH};
+use crate::methods::{CONTROL, DEFAULT, Group};
 use crate::summary::Summary;
 
 /// Times that differ by less count as equal.
@@ -50,33 +50,26 @@ pub struct SpeedUp {
     pub extrapolated: bool,
 }
 
-/// Fits a·pathsᵇ to path tracing's error, less the references' own, and c + d·paths to its milliseconds (both by least squares),
-/// and reads both off at the default's error.
-pub fn equal_error(summaries: &[Summary], reference: u32) -> Option<SpeedUp> {
+/// Fits a·pathsᵇ to path tracing's error, and c + d·paths to its milliseconds (both by least squares), and reads both off at the
+/// default's error.
+pub fn equal_error(summaries: &[Summary]) -> Option<SpeedUp> {
     let (time, error) = find(summaries, DEFAULT)?.point()?;
-    let floor = floor(summaries, reference)?;
     let traced = summaries.iter().filter_map(|summary| match summary.group {
         Group::Tracing(paths) => Some((f64::from(paths), summary.point()?)),
         _ => None,
     });
-    let traced: Vec<_> = traced.filter(|&(_, (_, error))| error > floor).collect();
-    let errors: Vec<_> = traced.iter().map(|&(paths, (_, error))| (paths, error - floor)).collect();
+    let traced: Vec<_> = traced.collect();
+    let errors: Vec<_> = traced.iter().map(|&(paths, (_, error))| (paths, error)).collect();
     let times: Vec<_> = traced.iter().map(|&(paths, (ms, _))| (paths, ms)).collect();
     let power = Power::through(&errors)?;
     let (each, fixed) = line(&times)?;
-    if error <= floor || power.exponent >= 0.0 {
+    if error <= 0.0 || power.exponent >= 0.0 {
         return None;
     }
-    let paths = ((error - floor) / power.factor).powf(1.0 / power.exponent);
+    let paths = (error / power.factor).powf(1.0 / power.exponent);
     let ms = fixed + each * paths;
     let most = traced.iter().map(|&(paths, _)| paths).fold(0.0, f64::max);
     Some(SpeedUp { paths, ms, factor: ms / time, extrapolated: paths > most })
-}
-
-/// What the noise that is left in the references adds to every relative MSE: a mean of n paths has an n-th of the variance of one.
-pub fn floor(summaries: &[Summary], paths: u32) -> Option<f64> {
-    let measured = find(summaries, ONE_PATH)?.error()?;
-    Some(measured / (f64::from(paths) + 1.0))
 }
 
 /// What is promised of the adaptive α, held against the numbers of a sequence.

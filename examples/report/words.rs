@@ -11,8 +11,6 @@ pub struct Context {
     pub facts: Vec<String>,
     /// What did not fit into the budget.
     pub dropped: Vec<String>,
-    /// Paths per pixel of the references.
-    pub paths: u32,
 }
 
 /// A sequence, its methods, and its plots and pictures.
@@ -40,7 +38,8 @@ pub fn report(context: &Context, chapters: &[Chapter]) -> String {
     }
     out += "\nrelMSE is mean (a − b)² / (b² + 0.01), bias is mean (a − b) / mean b, flicker is the change of the error from frame to \
             frame along the motion where nothing changed, and ghost is the relMSE where light or surfaces changed in the last eight \
-            frames: means over the frames, over pixels that are neither emitters nor misses. PSNR, SSIM and FLIP are of images as \
+            frames: means over the frames, over pixels that are neither emitters nor misses. The references' own noise is \
+            subtracted from relMSE, and two halves of each tell it. PSNR, SSIM and FLIP are of images as \
             displays show them. Times are medians, with the quartiles.\n";
     out += &across(chapters);
     for chapter in chapters {
@@ -48,7 +47,7 @@ pub fn report(context: &Context, chapters: &[Chapter]) -> String {
         out += &table(&chapter.summaries);
         out += &passes(&chapter.summaries);
         out += &lags(&chapter.summaries);
-        out += &verdicts(chapter, context.paths);
+        out += &verdicts(chapter);
         for plot in &chapter.plots {
             let _ = write!(out, "\n![{plot}]({plot}.svg)\n");
         }
@@ -154,7 +153,7 @@ fn lags(summaries: &[Summary]) -> String {
 }
 
 /// What the numbers of a sequence say.
-fn verdicts(chapter: &Chapter, paths: u32) -> String {
+fn verdicts(chapter: &Chapter) -> String {
     let summaries = &chapter.summaries;
     let mut out = String::from("\n");
     if let (Some(best), Some(default)) = (verdict::equal_time(summaries), verdict::find(summaries, DEFAULT)) {
@@ -170,7 +169,7 @@ fn verdicts(chapter: &Chapter, paths: u32) -> String {
             ),
         };
     }
-    if let Some(speed_up) = verdict::equal_error(summaries, paths) {
+    if let Some(speed_up) = verdict::equal_error(summaries) {
         let how = if speed_up.extrapolated { "extrapolated" } else { "interpolated" };
         let _ = writeln!(
             out,
@@ -184,9 +183,6 @@ fn verdicts(chapter: &Chapter, paths: u32) -> String {
         let _ = writeln!(out, "- Beaten by nothing in both time and error: {}.", front.join(", "));
     }
     out += &ablation(summaries);
-    if let Some(floor) = verdict::floor(summaries, paths) {
-        let _ = writeln!(out, "- The references' own noise adds {floor:.5} to each relMSE.");
-    }
     for claim in verdict::claims(&chapter.sequence, summaries) {
         let _ = writeln!(out, "- {}: {}.", if claim.holds { "Holds" } else { "**Does not hold**" }, claim.text);
     }
