@@ -124,7 +124,7 @@ fn bars<'a, B: DrawingBackend<ErrorType: 'static>>(
         .caption(caption, TITLE)
         .margin(12)
         .x_label_area_size(LABELS)
-        .y_label_area_size(2 * LABELS + 40)
+        .y_label_area_size(2 * LABELS + 100)
         .build_cartesian_2d(0.0..end, 0.0..names.len() as f64)?;
     let mesh = &mut chart.configure_mesh();
     mesh.disable_y_mesh().disable_y_axis().x_desc(axis).label_style(FONT).max_light_lines(1).draw()?;
