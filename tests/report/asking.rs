@@ -37,6 +37,19 @@ fn everything_said() {
 }
 
 #[test]
+fn a_choice_of_animations_and_methods() {
+    let line = ["--animations", "blink, static", "--methods", "a-svgf,1 spp"].map(Into::into);
+    let Ok(Request::Report(Command { suite, .. })) = parse(line) else { panic!("it was understood") };
+    let names: Vec<_> = suite.sequences.iter().map(|sequence| sequence.name.as_str()).collect();
+    assert_eq!(names, ["cornell-static", "cornell-blink"]);
+    let names: Vec<_> = suite.methods.iter().map(|method| method.name.as_str()).collect();
+    assert_eq!(names, ["a-svgf", "1 spp"]);
+    let unknown = command("--animations jump").err().unwrap();
+    assert_eq!(unknown, "--animations jump: must be of static, blink, move-light");
+    assert!(command("--methods best").err().unwrap().starts_with("--methods best: must be of "));
+}
+
+#[test]
 fn a_file_is_one_sequence() {
     let command = command("--scene some/Helmet.gltf").unwrap();
     assert_eq!(command.suite.sequences.len(), 1);

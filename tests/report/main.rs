@@ -85,5 +85,6 @@ mod growing;
 mod keeping;
 mod listing;
 mod measuring;
+mod scoring;
 mod verdicts;
 mod writing;
