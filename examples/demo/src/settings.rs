@@ -79,6 +79,7 @@ pub const FILTER: &[Setting] = &[
     number!(filter.sigma_luminance, 0.0..=32.0, false),
     number!(filter.sigma_depth, 1e-4..=10.0, true),
     number!(filter.sigma_normal, 0.0..=256.0, false),
+    number!(filter.sigma_foreshortening, 0.0..=8.0, false),
 ];
 
 /// How paths are traced.
