@@ -185,7 +185,7 @@ impl Default for FilterSettings {
             ridge: 0.25,
             iterations: 4,
             converged: 0.03,
-            sigma_luminance: 3.5,
+            sigma_luminance: 4.0,
             sigma_depth: 0.0025,
             sigma_normal: 32.0,
             sigma_foreshortening: 0.25,

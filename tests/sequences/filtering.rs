@@ -119,8 +119,7 @@ fn lambda_from_outside_drops_history() {
 }
 
 /// Frames and references of another renderer, where they are at hand: `../shared/sequences` next to the repository. The prototype
-/// of the study reaches 0.0033, −1.0 % and 0.061 on them; the default's stops smooth a little less than its (docs/filter.md), and are
-/// allowed a tenth more flicker.
+/// of the study reaches 0.0033, −1.0 % and 0.061 on them.
 #[test]
 fn another_renderers_frames_come_as_close_to_the_truth_as_they_should() {
     let input = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/sequences/move_object");
@@ -136,5 +135,5 @@ fn another_renderers_frames_come_as_close_to_the_truth_as_they_should() {
     }
     let scores = scoring::score(&out.0, &input).unwrap();
     println!("{scores}");
-    assert!(scores.rel_mse <= 0.0037 && scores.bias.abs() <= 0.015 && scores.flicker <= 0.067, "{scores}");
+    assert!(scores.rel_mse <= 0.0037 && scores.bias.abs() <= 0.015 && scores.flicker <= 0.065, "{scores}");
 }
