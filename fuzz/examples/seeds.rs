@@ -24,7 +24,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Copies the scene files of a folder and of those in it.
 fn scenes(folder: &Path, corpus: &Path) -> Result<(), Box<dyn Error>> {
-    let entries = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<Result<Vec<PathBuf>, std::io::Error>>()?;
+    let entries =
+        fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<Result<Vec<PathBuf>, std::io::Error>>()?;
     let own = folder.file_name().unwrap_or_default().to_string_lossy();
     for path in entries {
         if path.is_dir() {
@@ -34,7 +35,14 @@ fn scenes(folder: &Path, corpus: &Path) -> Result<(), Box<dyn Error>> {
         let name = format!("{own}-{}", path.file_name().unwrap_or_default().to_string_lossy());
         match path.extension().and_then(OsStr::to_str) {
             Some("gltf" | "glb") if path.metadata()?.len() <= LARGEST => {
-                fs::write(corpus.join("gltf").join(name), fs::read(&path)?)?;
+                let mut bytes = fs::read(&path)?;
+                if let Ok(data) = fs::read(path.with_extension("bin"))
+                    && data.len() as u64 <= LARGEST
+                {
+                    bytes.push(NEXT_FILE);
+                    bytes.extend(data);
+                }
+                fs::write(corpus.join("gltf").join(name), bytes)?;
             }
             Some("obj") if path.metadata()?.len() <= LARGEST => {
                 let mut bytes = fs::read(&path)?;

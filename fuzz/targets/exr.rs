@@ -6,15 +6,21 @@
 mod layers;
 
 use asvgf::image_io;
-use asvgf_fuzz::Folder;
 use layers::{Layer, Names};
 use libfuzzer_sys::fuzz_target;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-static FOLDER: LazyLock<Folder> = LazyLock::new(|| Folder::new("exr"));
+/// A file of this process alone, in memory where there is a file system for that.
+static FILE: LazyLock<PathBuf> = LazyLock::new(|| {
+    let root = if Path::new("/dev/shm").is_dir() { PathBuf::from("/dev/shm") } else { std::env::temp_dir() };
+    root.join(format!("asvgf-fuzz-{}.exr", std::process::id()))
+});
 
 fuzz_target!(|input: &[u8]| {
-    let Ok(image) = image_io::read_exr(FOLDER.write("frame.exr", input)) else { return };
+    fs::write(&*FILE, input).expect("a file to write");
+    let Ok(image) = image_io::read_exr(&*FILE) else { return };
     let area = image.width as usize * image.height as usize;
     assert!(area > 0 && image.channels.iter().all(|(_, samples)| samples.len() == area));
     for layer in Layer::ALL {

@@ -1,15 +1,14 @@
-//! A glTF file, as JSON or as GLB; what it refers to must be within it.
+//! A glTF file, as JSON or as GLB, and, behind the first zero byte of JSON, the file `scene.bin` or `scene.png` that it refers to.
 #![no_main]
 
 use asvgf::scene;
-use asvgf_fuzz::Folder;
+use asvgf_fuzz::{files, split};
 use libfuzzer_sys::fuzz_target;
-use std::sync::LazyLock;
-
-static FOLDER: LazyLock<Folder> = LazyLock::new(|| Folder::new("gltf"));
 
 fuzz_target!(|input: &[u8]| {
-    if let Ok(loaded) = scene::load(FOLDER.write("scene.gltf", input)) {
+    let (description, data) = split(input);
+    let files = files([("scene.gltf", description), ("scene.bin", data), ("scene.png", data)]);
+    if let Ok(loaded) = scene::load_from_memory(&files, "scene.gltf") {
         loaded.scene.validate().expect("what was loaded keeps the rules");
         let pose = loaded.scene.pose(Some(0), 0.4);
         assert_eq!(pose.world.len(), loaded.scene.nodes.len());

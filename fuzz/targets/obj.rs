@@ -2,16 +2,13 @@
 #![no_main]
 
 use asvgf::scene;
-use asvgf_fuzz::{Folder, split};
+use asvgf_fuzz::{files, split};
 use libfuzzer_sys::fuzz_target;
-use std::sync::LazyLock;
-
-static FOLDER: LazyLock<Folder> = LazyLock::new(|| Folder::new("obj"));
 
 fuzz_target!(|input: &[u8]| {
     let (geometry, materials) = split(input);
-    FOLDER.write("scene.mtl", materials);
-    if let Ok(loaded) = scene::load(FOLDER.write("scene.obj", geometry)) {
+    let files = files([("scene.obj", geometry), ("scene.mtl", materials)]);
+    if let Ok(loaded) = scene::load_from_memory(&files, "scene.obj") {
         loaded.scene.validate().expect("what was loaded keeps the rules");
     }
 });
