@@ -33,7 +33,7 @@ impl Denoiser {
     pub fn prepare(&self, scene: &GpuScene, target: TextureFormat) -> Result<(), Error> {
         let traits = self.traits(scene);
         self.every_change().iter().try_for_each(|&changes| {
-            let changes = self.changes_of_scene(Some(changes));
+            let changes = self.changes(Some(changes));
             let plan = self.adapt(Plan::path_traced(&traits, &self.settings, changes, target));
             self.compile(&plan.steps, scene.traversal(&traits))
         })
@@ -89,7 +89,7 @@ impl Denoiser {
         let same_paths = |l: &LastFrame| matches!(&l.source, Source::Scene(_, last) if *last == self.settings.tracer);
         let known = last.map(|l| Changes { camera: l.camera != camera, scene: !(same_pose(l) && same_paths(l)) });
         let images = most.images();
-        let plan = match self.changes_of_scene(known) {
+        let plan = match self.changes(known) {
             Changes::ANY => most,
             changes => self.adapt(Plan::path_traced(&traits, &self.settings, changes, format)),
         };
@@ -120,11 +120,5 @@ impl Denoiser {
             Specialize::Exactly => scene.traits(),
             Specialize::Everything => scene.traits().everything(),
         }
-    }
-
-    /// As [`Denoiser::changes`]. lavapipe keeps so much compiled code and no more: with a second `trace` for frames in which the camera
-    /// alone moves, it would compile one of the two in each frame, so there a camera that moves counts as any change.
-    fn changes_of_scene(&self, known: Option<Changes>) -> Changes {
-        self.changes(known.filter(|changes| !(self.on_cpu && changes.camera)))
     }
 }

@@ -16,10 +16,10 @@ struct AsvgfCamera {
 
 // The first members of the frame's constants.
 struct AsvgfFrame {
-    camera: AsvgfCamera,
-    previous: AsvgfCamera,
     size: vec2<u32>,
     strata: vec2<u32>,
+    camera: AsvgfCamera,
+    previous: AsvgfCamera,
     index: u32,
 }
 

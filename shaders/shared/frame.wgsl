@@ -20,11 +20,13 @@ struct Camera {
 
 // One frame's constants. Mirrored by `FrameUniform` in src/gpu/frame.rs.
 struct Frame {
-    camera: Camera,
-    previous: Camera,
+    // What stays comes first: Mesa's lavapipe compiles `trace` and `temporal` anew whenever the first number of a uniform has
+    // another value, which the camera's place has in each frame of a move (docs/performance.md).
     size: vec2<u32>,
     // Strata of 3×3 pixels in each direction, the last one possibly cut.
     strata: vec2<u32>,
+    camera: Camera,
+    previous: Camera,
     index: u32,
     seed: u32,
     // 1 where there is history to reproject, 0 after a restart.

@@ -9,10 +9,10 @@ use bytemuck::{Pod, Zeroable};
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct FrameUniform {
-    camera: CameraUniform,
-    previous: CameraUniform,
     size: [u32; 2],
     strata: [u32; 2],
+    camera: CameraUniform,
+    previous: CameraUniform,
     index: u32,
     seed: u32,
     continued: u32,
@@ -68,10 +68,10 @@ impl FrameUniform {
         };
         let (alpha, max_history) = if moment.converges { (0.0, LONGEST_HISTORY) } else { (f.alpha, f.max_history) };
         Self {
-            camera: moment.camera,
-            previous: moment.previous,
             size,
             strata: Grid::Strata.extent(size),
+            camera: moment.camera,
+            previous: moment.previous,
             index: moment.index,
             seed,
             continued: u32::from(moment.continued),
@@ -108,7 +108,7 @@ mod tests {
 
     #[test]
     fn the_frame_lies_where_the_shader_reads_it() {
-        let fields = fields!(FrameUniform: camera, previous, size, strata, index, seed, continued, samples, bounces, roulette,
+        let fields = fields!(FrameUniform: size, strata, camera, previous, index, seed, continued, samples, bounces, roulette,
             alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
             ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block, converged,
             sigma_foreshortening);
