@@ -1,7 +1,7 @@
 #define_import_path asvgf::material
 
 #import asvgf::scene::{load_material, geometry_word, TWO_SIDED_EMITTER, UNLIT}
-#import asvgf::surface::{Visible, Triangle, at, geometric_normal, shading_normal, is_front}
+#import asvgf::surface::{Visible, Triangle, at, within_edges, geometric_normal, shading_normal, is_front}
 #import asvgf::color::luminance
 #import asvgf::packing::round_to_f16
 #ifdef TEXTURES
@@ -60,7 +60,7 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
         base = vec3(0.0);
     }
     var s: Surface;
-    s.position = at(t, weights);
+    s.position = at(t, within_edges(weights));
     s.geometric = geometric_normal(t, ray_direction);
     s.normal = shading_normal(v, weights, s.geometric);
     s.view = -normalize(ray_direction);

@@ -97,6 +97,13 @@ fn at(t: Triangle, weights: vec2<f32>) -> vec3<f32> {
     return t.a + weights.x * (t.b - t.a) + weights.y * (t.c - t.a);
 }
 
+// The nearest weights that are within a triangle by 2 millionths of its size, some ten steps of its coordinates. A ray that meets
+// an edge within rounding may be beyond the neighbour's plane, and what leaves from there has left a closed room.
+fn within_edges(weights: vec2<f32>) -> vec2<f32> {
+    let inner = max(weights, vec2(2e-6));
+    return inner * min(1.0, (1.0 - 2e-6) / (inner.x + inner.y));
+}
+
 // Unit normal of the side from which `direction` arrives; opposes the direction for a degenerate triangle.
 fn geometric_normal(t: Triangle, direction: vec3<f32>) -> vec3<f32> {
     let n = cross(t.b - t.a, t.c - t.a);

@@ -37,6 +37,22 @@ impl Furnace {
 
     /// The farthest from 1 and ½ that any pixel is over frames; `camera` tells where each is seen from.
     pub fn farthest(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
+        self.largest(scene, frames, camera, |x| (x - 1.0).abs().min((x - 0.5).abs()))
+    }
+
+    /// The brightest that any pixel is over frames.
+    pub fn brightest(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
+        self.largest(scene, frames, camera, |x| x)
+    }
+
+    /// The largest of a quantity of the pixels' radiance over frames.
+    fn largest(
+        &mut self,
+        scene: Scene,
+        frames: u32,
+        camera: impl Fn(u32) -> Camera,
+        quantity: impl Fn(f32) -> f32,
+    ) -> f64 {
         let Self(stage) = self;
         stage.uploaded = GpuScene::new(&stage.gpu.device, &stage.gpu.queue, &scene).unwrap();
         stage.scene = scene;
@@ -44,8 +60,8 @@ impl Furnace {
         for frame in 0..frames {
             stage.camera = Some(camera(frame));
             let image = stage.frame().image();
-            let away = image.iter().flatten().map(|x| f64::from((x - 1.0).abs().min((x - 0.5).abs())));
-            worst = away.fold(worst, |w, d| if d.is_nan() { f64::INFINITY } else { w.max(d) });
+            let each = image.iter().flatten().map(|x| f64::from(quantity(*x)));
+            worst = each.fold(worst, |w, d| if d.is_nan() { f64::INFINITY } else { w.max(d) });
         }
         worst
     }

@@ -88,6 +88,15 @@ pub const CASES: &[Case] = &[
         breaks: Breaks::Never("a triangle seen edge-on has no area in the image"),
     },
     Case {
+        name: "the eye within a solid",
+        varied: "a closed box of 12 triangles and a ball of 720 round the eye, sizes 10⁻⁵ … 10⁷; its middle, near a wall, in a corner",
+        quantity: "pixels that see the sky, and light that leaks in, in parts of the sky's",
+        bound: 0.0,
+        origin: "no ray leaves a closed surface, not by an edge or a vertex either",
+        measure: enclosed,
+        breaks: Breaks::Never("triangles that share an edge reach over it"),
+    },
+    Case {
         name: "smaller than a pixel, with jitter",
         varied: "400 cards of 1, 0.3 and 0.1 pixels before the sky; each frame with another jitter",
         quantity: QUANTITY,
@@ -316,6 +325,38 @@ fn awkward() -> Worst {
         let camera = |_| Camera { eye, target, ..Default::default() };
         // From within its plane, a surface is not seen.
         worst.add(furnace.farthest(grey(vec![plane(1.0, [0.0; 3])]), 3, camera), || name.into());
+    }
+    worst
+}
+
+/// A box with the corners ±`half`, closed.
+fn closed_box(half: f32) -> Mesh {
+    let at = |x: i32, y: i32, z: i32| [x, y, z].map(|sign| sign as f32 * half);
+    let positions = (0..8).map(|i| at((i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1)).collect();
+    let quads = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    let triangles = quads.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    Mesh { positions, triangles, ..Default::default() }
+}
+
+fn enclosed() -> Worst {
+    let mut worst = Worst::default();
+    let mut furnace = Furnace::new([33, 25]);
+    for power in [-5, -2, 0, 3, 7] {
+        let scale = 10.0_f32.powi(power);
+        for (name, mesh) in [("box", closed_box(scale)), ("ball", ball(scale, [0.0; 3]))] {
+            // To a vertex, an edge and a face of both, and past them.
+            let eyes = [("the middle", [0.0, 0.0, 0.0]), ("a wall", [0.9, 0.1, 0.2]), ("a corner", [0.5, 0.5, 0.5])];
+            for (place, eye) in eyes {
+                let eye = eye.map(|x: f32| x * scale);
+                let camera = |frame| {
+                    let target =
+                        [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.1], [0.3, -0.7, 0.2]][frame as usize % 4];
+                    Camera { eye, target: target.map(|x: f32| x * scale), fov_y: 2.0, ..Default::default() }
+                };
+                let scene = grey(vec![mesh.clone()]);
+                worst.add(furnace.brightest(scene, 8, camera), || format!("a {name} of 10^{power}, {place}"));
+            }
+        }
     }
     worst
 }
