@@ -28,8 +28,8 @@ const GROUPS: [(&str, &[cases::Case]); 8] = [
 const HELP: &str = "\
 usage: stability [--long] [GROUP]
 
-Measures how far the filter is from its bounds, prints a table and writes docs/stability.md. With --long, the long runs too (an hour
-on two cores of a software adapter). With the beginning of a group's title, only that group, and no file.
+Measures how far the filter is from its bounds, prints a table and writes docs/stability.md. With --long, the long runs too (ten
+minutes on two cores of a software adapter). With the beginning of a group's title, only that group, and no file.
 ";
 
 fn main() -> ExitCode {
