@@ -80,6 +80,24 @@ fn what_is_rounded_is_right_on_average_and_never_a_step_off() {
 }
 
 #[test]
+fn a_part_of_a_step_is_rounded_up_as_often_as_it_is_large() {
+    const CASES: usize = 1 << 18;
+    // With a largest channel of 4096 … 8191 a step is 1 and an ulp of f32 its 2048th. The last two have finer ones.
+    for [red, green, blue] in [[1.0, 9.0, 3.0], [3.0, 2.0, 0.25], [7.0, 1024.0, 0.5], [1531.0, 2047.0, 4.75]] {
+        let parts = [red, green, blue].map(|p: f64| p / 2048.0);
+        let color = [5000.0 + parts[0] as f32, 4097.0 + parts[1] as f32, 900.0 + parts[2] as f32];
+        let cases: Vec<Case> = (0..CASES).map(|_| Case::once(color, 0.0, 1.0)).collect();
+        let found = run(&cases);
+        for (channel, part) in parts.into_iter().enumerate() {
+            let up = found.iter().filter(|(c, ..)| c[channel] > f64::from(color[channel])).count() as f64;
+            let (n, expected) = (CASES as f64, CASES as f64 * part);
+            let standard_error = (n * part * (1.0 - part)).sqrt();
+            assert!((up - expected).abs() <= 5.0 * standard_error, "{up} of {n} are rounded up, not {expected}");
+        }
+    }
+}
+
+#[test]
 fn what_needs_no_rounding_stays_what_it_is() {
     let frames = |case: Case| Case { frames: 1000, alpha: 1.0 / 64.0, ..case };
     let lengths = (1..=32).chain([48, 64, 100, 128, 1024, 32768]).map(|n| n as f32);
