@@ -24,7 +24,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "10 000 frames of a shaking camera",
         varied: "shifts of up to a pixel and jitter of half a pixel, another in each frame; 16×12",
-        quantity: "pixels that cannot be shown, or |mean of the last 1000 frames / reference − 1|",
+        quantity: "pixels that cannot be shown, or relative difference of the last 1000 frames' mean from the reference's",
         bound: 0.02,
         origin: "the reference shakes alike; bias of the filter and of resampling",
         measure: shaking,
@@ -43,7 +43,7 @@ pub const CASES: &[Case] = &[
     Case {
         name: "100 000 traced frames",
         varied: "the box of Cornell, still, 8×8, default settings",
-        quantity: "largest λ, pixels that cannot be shown, or |mean of the last 1000 frames / reference − 1| over 1 %",
+        quantity: "largest λ, pixels that cannot be shown, or that difference in percent",
         bound: 1.0,
         origin: "a still image has no gradient; the reference has 16 384 paths per pixel; bias of the filter is within 1 %",
         measure: traced,

@@ -94,7 +94,7 @@ pub const CASES: &[Case] = &[
         bound: 0.0,
         origin: "no ray leaves a closed surface, not by an edge or a vertex either",
         measure: enclosed,
-        breaks: Breaks::Never("triangles that share an edge reach over it"),
+        breaks: Breaks::Never("triangles reach over their edges, and paths start within them"),
     },
     Case {
         name: "smaller than a pixel, with jitter",
