@@ -78,7 +78,7 @@ pub struct Denoiser {
     pub(crate) textures: Textures,
     strides: Buffer,
     /// The adapter is the CPU.
-    pub(crate) on_cpu: bool,
+    on_cpu: bool,
     pub(crate) specialize: Specialize,
     pub(crate) timing: Option<Timing>,
     pub(crate) counters: Option<Counters>,

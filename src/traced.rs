@@ -33,7 +33,6 @@ impl Denoiser {
     pub fn prepare(&self, scene: &GpuScene, target: TextureFormat) -> Result<(), Error> {
         let traits = self.traits(scene);
         self.every_change().iter().try_for_each(|&changes| {
-            let changes = self.changes(Some(changes));
             let plan = self.adapt(Plan::path_traced(&traits, &self.settings, changes, target));
             self.compile(&plan.steps, scene.traversal(&traits))
         })

@@ -344,11 +344,11 @@ fn enclosed() -> Worst {
     for power in [-5, -2, 0, 3, 7] {
         let scale = 10.0_f32.powi(power);
         for (name, mesh) in [("box", closed_box(scale)), ("ball", ball(scale, [0.0; 3]))] {
-            // To a vertex, an edge and a face of both, and past them.
             let eyes = [("the middle", [0.0, 0.0, 0.0]), ("a wall", [0.9, 0.1, 0.2]), ("a corner", [0.5, 0.5, 0.5])];
             for (place, eye) in eyes {
                 let eye = eye.map(|x: f32| x * scale);
                 let camera = |frame| {
+                    // A vertex of the box, an edge, and faces.
                     let target =
                         [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.1], [0.3, -0.7, 0.2]][frame as usize % 4];
                     Camera { eye, target: target.map(|x: f32| x * scale), fov_y: 2.0, ..Default::default() }
