@@ -72,13 +72,19 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all(&options.out).map_err(|e| format!("--out {}: {e}", options.out.display()))?;
     let bar = progress("denoising");
     bar.set_length((sequence.last - sequence.first + 1).into());
-    let timed = replay::denoise(&mut film, &sequence, |frame, film| {
+    let denoised = replay::denoise(&mut film, &sequence, |frame, film| {
         bar.inc(1);
         write(options, film, frame)
     })?;
     bar.finish_and_clear();
-    say(&times::table(&timed, None, sequence.size, &gpu));
-    say(&format!("{} frames in {}\n", timed.len(), options.out.display()));
+    if let Some(frame) = denoised.repeated {
+        eprint!(
+            "note: frame {frame} has the noise of the frame before, to the last bit, wherever nothing moves: from there on each \
+             frame is denoised by itself; let the renderer take another seed in each frame, and averages over time are possible\n"
+        );
+    }
+    say(&times::table(&denoised.times, None, sequence.size, &gpu));
+    say(&format!("{} frames in {}\n", denoised.times.len(), options.out.display()));
     Ok(())
 }
 

@@ -37,6 +37,7 @@ use arguments::{Format, Usage};
 use asvgf::scene::GpuScene;
 use asvgf::{Gradient, Settings, View, image_io};
 use compare::Tile;
+use export::Export;
 use film::Film;
 use gpu::Gpu;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -89,6 +90,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let bar = progress(options);
     let mut timed = Vec::new();
     let mut cameras = Vec::new();
+    let mut export = Export::default();
     let mut truth = Vec::new();
     let last = options.start_frame + options.frames - 1;
     for frame in options.start_frame..=last {
@@ -107,7 +109,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
             }
         }
         if options.sequence {
-            export::write_frame(&options.out.join(format!("frame_{frame:04}.exr")), &mut film)?;
+            export.write(&options.out.join(format!("frame_{frame:04}.exr")), &mut film)?;
             cameras.push(camera);
         }
         if let Some(other) = &mut other {

@@ -7,7 +7,7 @@
 
 #import asvgf::frame::frame
 #import asvgf::color::luminance
-#import asvgf::packing::unpack_rgb
+#import asvgf::packing::{is_sample, unpack_rgb}
 #import asvgf::strata::{place_now, place_before, previous_pixel}
 #ifdef HISTORY_RATIO
 #import asvgf::pairs::unpack_pair
@@ -98,8 +98,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let now = pair.x;
         var before = pair.y;
 #else
-        let now = luminance(unpack_rgb(textureLoad(radiance, place_now(record, stratum), 0).xy));
-        var before = luminance(unpack_rgb(textureLoad(radiance_previous, place_before(record, stratum), 0).xy));
+        let path_now = textureLoad(radiance, place_now(record, stratum), 0).xy;
+        let path_before = textureLoad(radiance_previous, place_before(record, stratum), 0).xy;
+        // As in gradient_pairs.wgsl.
+        let comparable = is_sample(path_now) & is_sample(path_before);
+        let now = select(0.0, luminance(unpack_rgb(path_now)), comparable);
+        var before = select(0.0, luminance(unpack_rgb(path_before)), comparable);
 #endif
 #ifdef HISTORY_RATIO
         let rescaled = history_ratio(stratum);

@@ -3,7 +3,7 @@
 
 #import asvgf::frame::frame
 #import asvgf::color::luminance
-#import asvgf::packing::unpack_rgb
+#import asvgf::packing::{is_sample, unpack_rgb}
 #import asvgf::pairs::{Pair, pack_now, pack_before}
 #import asvgf::strata::{place_now, place_before}
 
@@ -20,8 +20,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var now = vec3(0.0);
     var before = vec3(0.0);
     if record.x != 0u {
-        now = unpack_rgb(textureLoad(radiance, place_now(record, stratum), 0).xy);
-        before = unpack_rgb(textureLoad(radiance_previous, place_before(record, stratum), 0).xy);
+        let path_now = textureLoad(radiance, place_now(record, stratum), 0).xy;
+        let path_before = textureLoad(radiance_previous, place_before(record, stratum), 0).xy;
+        // What is missing on one side tells nothing: two zeros weigh on neither sum.
+        let comparable = is_sample(path_now) & is_sample(path_before);
+        now = select(vec3(0.0), unpack_rgb(path_now), comparable);
+        before = select(vec3(0.0), unpack_rgb(path_before), comparable);
     }
     let l = luminance(now);
     let l_before = luminance(before);

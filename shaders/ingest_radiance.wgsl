@@ -2,6 +2,10 @@
 // detail of textures is blurred, and cleaned before it reaches history.
 
 #import asvgf::frame::inside
+#ifdef RESHADE
+#import asvgf::frame::frame
+#import asvgf::packing::NO_SAMPLE
+#endif
 #import asvgf::host_light::host_radiance
 #ifdef ALBEDO
 #import asvgf::host_light::host_albedo
@@ -39,6 +43,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     var divisor = vec3(1.0);
+#ifdef RESHADE
+    var comparable = true;
+#endif
 #ifdef ALBEDO
 #ifdef MODULATED
     let a = host_albedo(pixel, textureLoad(guide, pixel, 0).y != 0u);
@@ -48,6 +55,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let record = textureLoad(samples, vec2<i32>(stratum_of(id.xy)), 0);
     if is_sample_pixel(record, id.xy) {
         divisor = max(textureLoad(albedo_previous, previous_pixel(record), 0).xyz, vec3(1e-3));
+        // A host that hands in an albedo for the first time has none of the last frame: then there is nothing to divide by.
+        comparable = frame.continued != 0u;
     }
 #endif
 #else
@@ -58,7 +67,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef DIRECT_EMISSION
     textureStore(emission_out, pixel, vec4(host_emission(pixel), 0u, 0u));
 #endif
-    textureStore(radiance_out, pixel, vec4(host_radiance(pixel, divisor), 0u, 0u));
+    let light = host_radiance(pixel, divisor);
+#ifdef RESHADE
+    textureStore(radiance_out, pixel, vec4(select(NO_SAMPLE, light, comparable), 0u, 0u));
+#else
+    textureStore(radiance_out, pixel, vec4(light, 0u, 0u));
+#endif
 #ifdef DIAGNOSTICS
     if not_finite {
         atomicAdd(&counts.non_finite, 1u);

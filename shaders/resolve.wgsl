@@ -2,6 +2,9 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::packing::unpack_rgb
+#ifdef ACCUMULATE
+#import asvgf::packing::is_sample
+#endif
 #ifndef UNFILTERED
 #import asvgf::history::filtered_color
 #endif
@@ -34,8 +37,8 @@ fn hit_at(pixel: vec2<i32>) -> bool {
 }
 
 #ifdef HOST_LIGHT
-fn sample_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
-    return unpack_rgb(host_sample(pixel, hit));
+fn sample_at(pixel: vec2<i32>, hit: bool) -> vec2<u32> {
+    return host_sample(pixel, hit);
 }
 #ifdef ALBEDO
 fn albedo_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
@@ -52,8 +55,8 @@ fn emission_at(pixel: vec2<i32>) -> vec3<f32> {
 @group(0) @binding(2) var albedo: texture_2d<f32>;
 @group(0) @binding(3) var emission: texture_2d<u32>;
 
-fn sample_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
-    return unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+fn sample_at(pixel: vec2<i32>, hit: bool) -> vec2<u32> {
+    return textureLoad(radiance, pixel, 0).xy;
 }
 
 fn albedo_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
@@ -84,13 +87,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
     let hit = hit_at(pixel);
 #ifdef UNFILTERED
-    var result = sample_at(pixel, hit);
+    let arrived = sample_at(pixel, hit);
+    var result = unpack_rgb(arrived);
 #else
     var result = filtered_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
     // Nothing was hit, so nothing was filtered: the host's sky.
     if !hit {
-        result = sample_at(pixel, hit);
+        result = unpack_rgb(sample_at(pixel, hit));
     }
 #endif
 #endif
@@ -101,12 +105,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     result += emission_at(pixel);
 #endif
 #ifdef ACCUMULATE
-    var sum = vec4(result, 1.0);
+    // What is missing is no sample of the mean.
+    var sum = select(vec4(0.0), vec4(result, 1.0), is_sample(arrived));
     if frame.continued != 0u {
         sum += textureLoad(sum_previous, pixel, 0);
     }
     textureStore(sum_out, pixel, sum);
-    result = sum.xyz / sum.w;
+    result = sum.xyz / max(sum.w, 1.0);
 #endif
     textureStore(target_out, pixel, vec4(min(result, vec3(LIMIT)), 1.0));
 }

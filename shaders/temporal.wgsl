@@ -3,11 +3,18 @@
 // The history is a colour, the variance of a sample's luminance, and the history length n (history.wgsl). The mean
 // luminance is that of the colour, unless the colour is fed from the spatial filter (FEEDBACK): then it takes the colour's
 // place, as a grey.
+//
+// n counts what the average is worth, in samples of weight 1: Var(mean) = Var(sample)/n (Kish 1965). A weight α on the new
+// sample makes of n: 1/n' = (1 − α)²/n + α². That is n + 1 for α = 1/(n + 1), and tends to (2 − α)/α for a constant α: counted
+// in frames instead, the spatial filter would take the noise of a constant α for gone.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::history::{pack_history, history_color, history_variance, history_length, rounding}
 #import asvgf::packing::{unpack_rgb, unpack_normal}
+#ifdef MISSING_SAMPLES
+#import asvgf::packing::is_sample
+#endif
 #ifdef FEEDBACK
 #import asvgf::packing::pack_rgb
 #endif
@@ -50,6 +57,10 @@
 @group(0) @binding(10) var external_lambda: texture_2d<f32>;
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rg32uint, write>;
+#ifdef KEEP_WEIGHTS
+// α and λ, for views.
+@group(0) @binding(14) var weights_out: texture_storage_2d<rg32float, write>;
+#endif
 
 // What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had.
 #ifdef STORAGE_READS
@@ -111,6 +122,10 @@ struct Taps {
     variance: f32,
     length: f32,
     weight: f32,
+#ifdef MISSING_SAMPLES
+    // Sum of the weights of all taps on the surface, also of those that have seen no sample yet.
+    surface: f32,
+#endif
 }
 
 fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear: f32) {
@@ -122,8 +137,12 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
 #endif
     let valid = bilinear >= 1e-4 && inside(place)
         && same_surface(origin, tap, guide_at(tap), there);
-    let weight = select(0.0, bilinear, valid);
+    var weight = select(0.0, bilinear, valid);
     let h = history_at(tap);
+#ifdef MISSING_SAMPLES
+    (*sum).surface += weight;
+    weight = select(0.0, weight, history_length(h) > 0.0);
+#endif
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback_previous, tap, 0).xy);
     let mean = history_color(h).x;
@@ -144,16 +163,22 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> Hist
     let corner = floor(point + 1e-4);
     let f = max(point - corner, vec2(0.0));
     let base = vec2<i32>(corner);
-    var sum = Taps(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0.0);
+    var sum = Taps();
     add_tap(&sum, origin, base, (1.0 - f.x) * (1.0 - f.y));
     add_tap(&sum, origin, base + vec2(1, 0), f.x * (1.0 - f.y));
     add_tap(&sum, origin, base + vec2(0, 1), (1.0 - f.x) * f.y);
     add_tap(&sum, origin, base + vec2(1, 1), f.x * f.y);
     // Where nothing of the surface lies under the 2×2 taps, look one pixel farther. The loop's length depends on that, as a
     // software adapter executes a branch either way, but not a loop.
-    let searched = select(0, 16, seen && sum.weight <= 0.01);
+#ifdef MISSING_SAMPLES
+    // Taps without a history are no reason: what is borrowed from farther away would stay, frame by frame farther in.
+    let surface = sum.surface;
+#else
+    let surface = sum.weight;
+#endif
+    let searched = select(0, 16, seen && surface <= 0.01);
     if searched > 0 {
-        sum = Taps(vec3(0.0), 0.0, 0.0, 0.0, 0.0, 0.0);
+        sum = Taps();
     }
     for (var i = 0; i < searched; i++) {
         let tap = base + vec2(i & 3, i >> 2u) - 1;
@@ -198,10 +223,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let seen = depth > 0.0;
     let normal = unpack_normal(g.x);
 #ifdef HOST_LIGHT
-    let sample = unpack_rgb(host_sample(pixel, seen));
+    let arrived = host_sample(pixel, seen);
 #else
-    let sample = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
+    let arrived = textureLoad(radiance, pixel, 0).xy;
 #endif
+    let sample = unpack_rgb(arrived);
     let l = luminance(sample);
     var history = History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
     if frame.continued != 0u {
@@ -225,13 +251,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var mean = l;
     var variance = 0.0;
     var length = 1.0;
+    var alpha = 1.0;
+    var lambda = 0.0;
+#ifdef MISSING_SAMPLES
+    let sampled = is_sample(arrived);
+    length = select(0.0, 1.0, sampled);
+#endif
     if history.weight > 0.0 {
         var before = history.color;
         var mean_before = history.mean;
         var variance_before = history.variance;
         // A still image's history may be longer than the settings allow in one that moves.
         var kept = min(history.length, frame.max_history);
-        var lambda = 0.0;
 #ifdef GRADIENT
         let change = change_at(pixel, normal, depth, seen);
         lambda = change.lambda;
@@ -246,14 +277,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         lambda = lambda_at(id.xy);
         kept *= kept_part(lambda);
 #endif
+        length = min(kept + 1.0, frame.max_history);
 #ifdef BLEND_BY_LAMBDA
         // α' = (1 − λ)·α + λ, as the talk and the paper have it, and never less than what the shortened history asks for.
         let base = max(1.0 / (history.length + 1.0), frame.alpha);
-        var alpha = max((1.0 - lambda) * base + lambda, 1.0 / (kept + 1.0));
+        alpha = max((1.0 - lambda) * base + lambda, 1.0 / (kept + 1.0));
 #else
-        var alpha = max(1.0 / (kept + 1.0), frame.alpha);
+        alpha = max(1.0 / length, frame.alpha);
 #endif
-        length = min(kept + 1.0, frame.max_history);
+        let older = (1.0 - alpha) * (1.0 - alpha) / max(kept, 1e-9);
+        length = select(length, min(1.0 / (older + alpha * alpha), frame.max_history), alpha * length > 1.0);
 #ifdef IN_PLACE
         // The gradient's sample is not new: averaged in, it would count twice (noise ×1.11). Only where it replaces what λ
         // drops does it count.
@@ -261,6 +294,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             alpha = lambda;
             length = max(kept, 1.0);
         }
+#endif
+#ifdef MISSING_SAMPLES
+        // The history goes on unchanged, unless λ has left nothing of it.
+        alpha = select(0.0, alpha, sampled);
+        length = select(select(0.0, kept, kept >= 1.0), length, sampled);
 #endif
         alpha = clamp(alpha, 0.0, 1.0);
         color = before + alpha * (sample - before);
@@ -275,5 +313,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     color = vec3(max(mean, 0.0));
 #endif
     let packed = pack_history(color, variance, length, rounding(id.xy, frame.index));
-    textureStore(history_out, pixel, vec4(select(vec2(0u), packed, seen), 0u, 0u));
+    textureStore(history_out, pixel, vec4(select(vec2(0u), packed, seen && length > 0.0), 0u, 0u));
+#ifdef KEEP_WEIGHTS
+    textureStore(weights_out, pixel, vec4(select(vec2(0.0), vec2(alpha, lambda), seen), 0.0, 0.0));
+#endif
 }

@@ -30,15 +30,27 @@
 @group(0) @binding(2) var visibility_previous: texture_2d<u32>;
 @group(0) @binding(3) var samples: texture_2d<u32>;
 #endif
+#ifdef LATER_PATHS
+@group(0) @binding(9) var paths_out: texture_storage_2d<rgba32float, write>;
+#else
 @group(0) @binding(4) var radiance_out: texture_storage_2d<rg32uint, write>;
 // The albedo, and how many rays the pixel cost.
 @group(0) @binding(5) var albedo_out: texture_storage_2d<rgba16float, write>;
 #ifdef DIRECT_EMISSION
 @group(0) @binding(6) var emission_out: texture_storage_2d<rg32uint, write>;
 #endif
+#endif
+
+// Sum over the paths of earlier dispatches, and the pixel's rays.
+#ifdef EARLIER_PATHS
+@group(0) @binding(8) var paths_before: texture_2d<f32>;
+#endif
 
 // The pixel's rays so far, the primary one included.
 var<private> rays: u32 = 1u;
+
+// The largest number of f16.
+const MOST_RAYS: f32 = 65504.0;
 
 // The surface that a pixel saw, placed where its triangle is now, seen as it was then.
 fn visible_surface(id: u32, camera: Camera, pixel: vec2<f32>, before: bool) -> Surface {
@@ -163,18 +175,24 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let seen = textureLoad(visibility, pixel, 0).x;
     if seen == NO_TRIANGLE {
+#ifdef LATER_PATHS
+        textureStore(paths_out, pixel, vec4(0.0));
+#else
         textureStore(radiance_out, pixel, vec4(0u));
         textureStore(albedo_out, pixel, vec4(0.0, 0.0, 0.0, 1.0));
 #ifdef DIRECT_EMISSION
         let sky = environment_radiance(normalize(direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy)))));
         textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(sky)), 0u, 0u));
 #endif
+#endif
         return;
     }
     var s = visible_surface(seen, frame.camera, vec2<f32>(id.xy), false);
+#ifndef LATER_PATHS
     let albedo = demodulation(s);
 #ifdef DIRECT_EMISSION
     textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(s.emission)), 0u, 0u));
+#endif
 #endif
     var seed_pixel = id.xy;
     var seed_frame = frame.index;
@@ -189,10 +207,19 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
 #endif
     var sum = vec3(0.0);
-    for (var i = 0u; i < frame.samples; i++) {
-        sum += sanitize(path(s, seed_of(seed_pixel, seed_frame, i, frame.seed)));
+#ifdef EARLIER_PATHS
+    let before = textureLoad(paths_before, pixel, 0);
+    sum = before.xyz;
+    rays = u32(before.w);
+#endif
+    for (var i = 0u; i < frame.batch; i++) {
+        sum += sanitize(path(s, seed_of(seed_pixel, seed_frame, frame.first_sample + i, frame.seed)));
     }
-    textureStore(albedo_out, pixel, vec4(albedo, f32(rays)));
+#ifdef LATER_PATHS
+    textureStore(paths_out, pixel, vec4(sum, f32(rays)));
+#else
+    textureStore(albedo_out, pixel, vec4(albedo, min(f32(rays), MOST_RAYS)));
     let demodulated = sum / (f32(frame.samples) * demodulation(s));
     textureStore(radiance_out, pixel, vec4(pack_rgb(min(demodulated, vec3(BRIGHTEST))), 0u, 0u));
+#endif
 }

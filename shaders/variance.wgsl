@@ -5,6 +5,9 @@
 #import asvgf::color::luminance
 #import asvgf::history::{history_color, history_variance, history_length}
 #import asvgf::packing::{unpack_normal, pack_tap}
+#ifdef MISSING_SAMPLES
+#import asvgf::packing::UNKNOWN_TAP
+#endif
 #ifdef FEEDBACK
 #import asvgf::packing::unpack_rgb
 #endif
@@ -39,11 +42,48 @@ fn mean_luminance(h: vec2<u32>) -> f32 {
 #endif
 }
 
+#ifdef REPEATED_NOISE
+// A sample's deviation, over the mean, below which the history has seen no noise in time: a hundredth.
+const SILENT: f32 = 1e-4;
+
+// A radiance on the centre's surface, as a difference to the centre's, and whether there is one.
+struct Neighbour {
+    difference: f32,
+    weight: f32,
+}
+
+fn neighbour(pixel: vec2<i32>, offset: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32) -> Neighbour {
+    let tap = pixel + offset;
+    let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
+    let h = textureLoad(history, clamped, 0).xy;
+    let there = weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
+    return Neighbour(mean_luminance(h) - center, select(0.0, there, inside(tap) && history_length(h) > 0.0));
+}
+
+// The variance that neighbours show in one direction, as a sum of squares and its weight: three independent numbers a, b, c in a
+// row have E[(b − (a + c)/2)²] = 1½·Var (compare Immerkær 1996, "Fast Noise Variance Estimation").
+fn roughness(pixel: vec2<i32>, at: vec2<i32>, step: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32) -> vec2<f32> {
+    let a = neighbour(pixel, at - step, plane, normal, center);
+    let b = neighbour(pixel, at, plane, normal, center);
+    let c = neighbour(pixel, at + step, plane, normal, center);
+    let weight = a.weight * b.weight * c.weight;
+    let bend = b.difference - 0.5 * (a.difference + c.difference);
+    return weight * vec2(bend * bend / 1.5, 1.0);
+}
+
+// The least of four variances, of those that something is known of; else 0.
+fn least(squares: vec4<f32>, weights: vec4<f32>) -> f32 {
+    let each = select(vec4(1e30), squares / max(weights, vec4(1e-6)), weights > vec4(1e-3));
+    let variance = min(min(each.x, each.y), min(each.z, each.w));
+    return select(0.0, variance, variance < 1e30);
+}
+#endif
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
     let h = textureLoad(history, pixel, 0).xy;
-    // 0 where nothing was hit.
+    // 0 where nothing was hit, and where no sample was seen yet.
     let length = history_length(h);
     let short = length > 0.0 && length < SHORT;
     let g = textureLoad(guide, pixel, 0).xy;
@@ -63,8 +103,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let tap = pixel + offset;
         let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
         let there = weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
-        let w = select(0.0, there, inside(tap));
         let other = textureLoad(history, clamped, 0).xy;
+#ifdef MISSING_SAMPLES
+        let w = select(0.0, there, inside(tap) && history_length(other) > 0.0);
+#else
+        let w = select(0.0, there, inside(tap));
+#endif
         let d = mean_luminance(other) - center;
         first += w * d;
         second += w * (history_variance(other) + d * d);
@@ -76,14 +120,38 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef VARIANCE_OF_MEAN
     // Bessel's correction while it matters, then the variance of a mean of n.
     let own = history_variance(h) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
-    let variance = mix(spatial, own, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0)) / max(length, 1.0);
+    var variance = mix(spatial, own, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0)) / max(length, 1.0);
 #else
-    let variance = select(history_variance(h), spatial, short);
+    var variance = select(history_variance(h), spatial, short);
+#endif
+#ifdef REPEATED_NOISE
+    // A renderer that takes the same random numbers in each frame has noise that no history shows, and no average lessens. What
+    // differs from its neighbours in every direction is noise; an edge does not along itself.
+    let silent = length > 1.0 && history_variance(h) <= SILENT * center * center;
+    var squares = vec4(0.0);
+    var supports = vec4(0.0);
+    let places = select(0, 9, silent);
+    for (var i = 0; i < places; i++) {
+        let row = (i * 11) >> 5u;
+        let at = vec2(i - 3 * row, row) - 1;
+        let across = roughness(pixel, at, vec2(1, 0), plane, normal, center);
+        let down = roughness(pixel, at, vec2(0, 1), plane, normal, center);
+        let falling = roughness(pixel, at, vec2(1, 1), plane, normal, center);
+        let rising = roughness(pixel, at, vec2(1, -1), plane, normal, center);
+        squares += vec4(across.x, down.x, falling.x, rising.x);
+        supports += vec4(across.y, down.y, falling.y, rising.y);
+    }
+    variance = select(variance, max(variance, least(squares, supports)), silent);
 #endif
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback, pixel, 0).xy);
 #else
     let color = history_color(h);
 #endif
-    textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(color, sqrt(variance)), length > 0.0), 0u, 0u));
+#ifdef MISSING_SAMPLES
+    let unknown = select(vec2(0u), UNKNOWN_TAP, g.y != 0u);
+#else
+    let unknown = vec2(0u);
+#endif
+    textureStore(color_out, pixel, vec4(select(unknown, pack_tap(color, sqrt(variance)), length > 0.0), 0u, 0u));
 }

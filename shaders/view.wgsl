@@ -7,16 +7,13 @@
 #if VIEW == 0
 #import asvgf::history::filtered_color
 #endif
-#if VIEW >= 9
+#if VIEW >= 10
 #if VIEW <= 11
 #import asvgf::history::{history_length, history_variance}
 #endif
 #endif
 #if VIEW == 12
 #import asvgf::history::filtered_color
-#endif
-#ifdef GRADIENT
-#import asvgf::change::change_at
 #endif
 #if VIEW >= 17
 #if VIEW <= 18
@@ -90,13 +87,15 @@
 @group(0) @binding(8) var gradient: texture_2d<u32>;
 #endif
 #endif
-#ifdef GRADIENT
-// λ, and α that depends on it.
-@group(0) @binding(5) var guide: texture_2d<u32>;
+#if VIEW >= 8
+#if VIEW <= 9
+// α and λ.
+@group(0) @binding(8) var weights: texture_2d<f32>;
 #endif
-#if VIEW >= 9
+#endif
+#if VIEW >= 10
 #if VIEW <= 11
-// α, history length, variance.
+// History length, variance.
 @group(0) @binding(9) var history: texture_2d<u32>;
 #endif
 #endif
@@ -127,18 +126,6 @@ struct Show {
 }
 
 @group(0) @binding(11) var<uniform> show: Show;
-
-// λ as the temporal pass found it. Where there was no history to shorten, what it would have been.
-fn lambda_at(pixel: vec2<i32>) -> f32 {
-#ifdef GRADIENT
-    let g = textureLoad(guide, pixel, 0).xy;
-    let depth = bitcast<f32>(g.y);
-    if depth > 0.0 && frame.continued != 0u {
-        return change_at(pixel, unpack_normal(g.x), depth, true).lambda;
-    }
-#endif
-    return 0.0;
-}
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
 #if VIEW == 0
@@ -193,17 +180,10 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #endif
 #endif
 #if VIEW == 8
-    return vec3(lambda_at(pixel));
+    return vec3(textureLoad(weights, pixel, 0).y);
 #endif
 #if VIEW == 9
-    let n = history_length(textureLoad(history, pixel, 0).xy);
-    let blended = max(1.0 / max(n, 1.0), frame.alpha);
-#ifdef BLEND_BY_LAMBDA
-    let lambda = lambda_at(pixel);
-    return vec3(max(blended, (1.0 - lambda) * frame.alpha + lambda)) * select(0.0, 1.0, n > 0.0);
-#else
-    return vec3(blended * select(0.0, 1.0, n > 0.0));
-#endif
+    return vec3(textureLoad(weights, pixel, 0).x);
 #endif
 #if VIEW == 10
     return vec3(history_length(textureLoad(history, pixel, 0).xy));
@@ -254,7 +234,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #endif
 #if VIEW == 19
     let s = textureLoad(sum, pixel, 0);
-    return s.xyz / s.w;
+    return s.xyz / max(s.w, 1.0);
 #endif
 }
 

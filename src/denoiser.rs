@@ -4,7 +4,7 @@ use crate::camera::CameraUniform;
 use crate::gpu::compose::Permutation;
 use crate::gpu::counts::{Counters, InputCounts};
 use crate::gpu::filled::filled;
-use crate::gpu::frame::{FrameUniform, Moment};
+use crate::gpu::frame::{self, FrameUniform, Moment};
 use crate::gpu::pipelines::Pipelines;
 use crate::gpu::textures::Textures;
 use crate::gpu::timing::{FrameQueries, FrameTimes, Timing};
@@ -13,8 +13,10 @@ use crate::passes::{self, Pass};
 use crate::plan::{Changes, Decision, HostTraits, Plan, Slot, Step, Traversal};
 use crate::settings::Settings;
 #[cfg(feature = "path-tracer")]
-use crate::settings::TracerSettings;
+use crate::{scene::Snapshot, settings::TracerSettings};
 use crate::{Error, View, ViewOptions};
+#[cfg(feature = "path-tracer")]
+use std::sync::Arc;
 use wgpu::{
     BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor, Device, DeviceType,
     Features, Limits, Queue, TextureFormat, TextureUsages, TextureView,
@@ -99,13 +101,20 @@ pub(crate) struct LastFrame {
 }
 
 /// Where a frame's samples came from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(crate) enum Source {
-    /// A host's renderer.
-    Host,
-    /// The path tracer: the version of its scene, and how paths were traced.
+    /// A host's renderer, and what its light is.
+    Host(Light),
+    /// The path tracer: its scene as it was, and how paths were traced.
     #[cfg(feature = "path-tracer")]
-    Scene([u64; 2], TracerSettings),
+    Scene(Arc<Snapshot>, TracerSettings),
+}
+
+/// What is in the light that a host's history holds: of another kind, it would be multiplied by textures twice, or never.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Light {
+    pub textures: bool,
+    pub emission: bool,
 }
 
 impl Denoiser {
@@ -307,10 +316,11 @@ impl Denoiser {
         result
     }
 
-    /// One frame's constants: a buffer of its own, as other frames may be recorded before this one is submitted.
-    pub(crate) fn frame_uniform(&self, device: &Device, moment: &Moment) -> Buffer {
+    /// One frame's constants, for each batch of its paths: a buffer of its own, as other frames may be recorded before this one is
+    /// submitted.
+    pub(crate) fn frame_uniform(&self, device: &Device, moment: &Moment, batches: &[[u32; 2]]) -> Buffer {
         let uniform = FrameUniform::new(self.size, moment, &self.settings);
-        filled(device, "asvgf frame", bytemuck::bytes_of(&uniform), BufferUsages::UNIFORM)
+        filled(device, "asvgf frame", &frame::of_each_batch(uniform, batches), BufferUsages::UNIFORM)
     }
 
     /// Records steps that are compiled.
@@ -324,7 +334,7 @@ impl Denoiser {
         after: &mut impl FnMut(Pass, &mut CommandEncoder),
     ) -> Result<(), Error> {
         for step in steps {
-            let timestamps = queries.as_mut().map(|q| q.next(step.pass.name()));
+            let timestamps = queries.as_mut().and_then(|q| q.next(step.pass.name()));
             self.dispatch(device, encoder, step, resources, timestamps)?;
             after(step.pass, encoder);
         }
@@ -405,7 +415,11 @@ impl Denoiser {
     /// What stands behind a binding's name.
     fn resource<'a>(&'a self, step: &Step, given: &Resources<'a>, name: &str) -> Option<BindingResource<'a>> {
         match name {
-            "frame" => return Some(given.uniform.as_entire_binding()),
+            "frame" => {
+                let offset = u64::from(step.batch()) * frame::SPACING as u64;
+                let size = std::num::NonZeroU64::new(size_of::<FrameUniform>() as u64);
+                return Some(BindingResource::Buffer(BufferBinding { buffer: given.uniform, offset, size }));
+            }
             "show" => return given.show.map(Buffer::as_entire_binding),
             "counts" => return given.counts.map(Buffer::as_entire_binding),
             "stride" => {

@@ -40,9 +40,12 @@ impl Settings {
         Self { filter: FilterSettings::classic(), ..Self::adaptive() }
     }
 
-    /// The same filter with a constant α: no temporal gradient, a history that fades as `(1 − α)ⁿ` whatever happens.
+    /// The same filter with a constant α: no temporal gradient, a history that fades as `(1 − α)ⁿ` whatever happens. An α below
+    /// 1/32768 acts as that: no history is longer. With 0, the history is as long as [`FilterSettings::max_history`] allows.
     pub fn constant(self, alpha: f32) -> Self {
-        let max_history = if alpha > 0.0 { self.filter.max_history.max(1.0 / alpha) } else { self.filter.max_history };
+        // As many samples as such an average is worth, (2 − α)/α.
+        let worth = if alpha > 0.0 { (2.0 / alpha - 1.0).min(LONGEST_HISTORY) } else { 0.0 };
+        let max_history = self.filter.max_history.max(worth);
         let filter = FilterSettings { gradient: Gradient::Off, alpha, max_history, ..self.filter };
         Self { filter, ..self }
     }

@@ -5,7 +5,7 @@ use crate::camera::Camera;
 use crate::denoiser::{Denoiser, LastFrame, Resources, Source, Specialize};
 use crate::gpu::frame::Moment;
 use crate::passes::Pass;
-use crate::plan::{Changes, Feature, Plan, Traits};
+use crate::plan::{Batches, Changes, Plan, Traits};
 use crate::scene::GpuScene;
 use crate::settings::{Gradient, Mode};
 use wgpu::{CommandEncoder, Device, TextureFormat, TextureView};
@@ -13,12 +13,12 @@ use wgpu::{CommandEncoder, Device, TextureFormat, TextureView};
 /// One frame of a path-traced scene.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
-    /// What to trace, moved to this frame's pose by [`GpuScene::update`].
+    /// What to trace, in the pose that [`GpuScene::update`] was last given.
     pub scene: &'a GpuScene,
     /// From where.
     pub camera: Camera,
-    /// Number of the frame. With the pixel it decides all random numbers. It should grow by one per frame: paths can only be
-    /// repeated from the frame before, so any other step starts a new history.
+    /// Number of the frame. With the pixel it decides all random numbers. It should grow by one per frame: any other step starts a
+    /// new history, in every mode.
     pub index: u32,
     /// Where linear radiance goes: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
     pub target: &'a TextureView,
@@ -70,23 +70,20 @@ impl Denoiser {
         let camera = frame.camera.uniform(self.size)?;
         let traits = self.traits(scene);
         let most = self.adapt(Plan::path_traced(&traits, &self.settings, Changes::ANY, format));
-        let version = scene.version();
-        let last = self.last.as_ref();
-        let same_scene = |l: &LastFrame| matches!(&l.source, Source::Scene([scene, _], _) if *scene == version[0]);
-        let mut continued = self.history && self.textures.has_all_before(&most) && last.is_some_and(same_scene);
-        let same_pose =
-            |l: &LastFrame| matches!(&l.source, Source::Scene(last, _) if *last == version) && !scene.moved();
-        if self.settings.mode == Mode::Reference {
-            // A mean over frames is only one of frames that are alike.
-            continued &= last.is_some_and(|l| same_pose(l) && l.camera == camera);
-        }
-        if most.features.has(Feature::Reshade) {
-            // The scene knows the placements of the last frame only, and the paths to repeat are that frame's.
-            continued &= last.is_some_and(|l| l.index.wrapping_add(1) == index);
-        }
-        let last = last.filter(|_| continued);
-        let same_paths = |l: &LastFrame| matches!(&l.source, Source::Scene(_, last) if *last == self.settings.tracer);
-        let known = last.map(|l| Changes { camera: l.camera != camera, scene: !(same_pose(l) && same_paths(l)) });
+        let now = scene.snapshot();
+        let same_light = |l: &LastFrame| {
+            matches!(&l.source, Source::Scene(before, tracer)
+                if before.shows_the_same_as(now) && *tracer == self.settings.tracer)
+        };
+        // Motion and repeated paths lead to the frame before, and a mean over frames is only one of frames that are alike.
+        let continues = |l: &LastFrame| {
+            let same_scene = matches!(&l.source, Source::Scene(before, _) if before.scene == now.scene);
+            let alike = same_light(l) && l.camera == camera;
+            l.index.wrapping_add(1) == index && same_scene && (self.settings.mode != Mode::Reference || alike)
+        };
+        let continued = self.history && self.textures.has_all_before(&most);
+        let last = self.last.as_ref().filter(|l| continued && continues(l));
+        let known = last.map(|l| Changes { camera: l.camera != camera, scene: !same_light(l) });
         let images = most.images();
         let plan = match self.changes(known) {
             Changes::ANY => most,
@@ -95,29 +92,35 @@ impl Denoiser {
         let traversal = scene.traversal(&traits);
         self.compile(&plan.steps, traversal)?;
         let previous = last.map_or(camera, |l| l.camera);
+        let continued = last.is_some();
         let moment = Moment { camera, previous, index, continued, lambda_block: 1, converges: plan.converges() };
-        let uniform = self.frame_uniform(device, &moment);
+        let before = match last.map(|l| &l.source) {
+            Some(Source::Scene(before, _)) => before.clone(),
+            _ => now.clone(),
+        };
+        let uniform = self.frame_uniform(device, &moment, &Batches::of(&traits, &self.settings.tracer).all());
         self.abandon();
         self.textures.begin();
         self.textures.place(device, self.size, &plan, (0, plan.steps.len()), images);
         let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
-        let given = |name: &str| scene.resource(name);
+        let given = |name: &str| scene.resource(name).or_else(|| before.resource(name));
         let resources = Resources { traversal, target: Some(target), ..Resources::new(&given, &uniform) };
         self.record(device, encoder, &plan.steps, &resources, &mut queries, &mut after)?;
         if let (Some(timing), Some(queries)) = (&self.timing, queries) {
             timing.end(device, encoder, queries);
         }
         self.history = true;
-        let source = Source::Scene(version, self.settings.tracer.clone());
+        let source = Source::Scene(now.clone(), self.settings.tracer.clone());
         self.last = Some(LastFrame { plan, uniform, camera, source, index });
         Ok(())
     }
 
     /// What the shaders are to be able to do.
     fn traits(&self, scene: &GpuScene) -> Traits {
+        let traits = Traits { views: self.textures.keeps(), ..scene.traits() };
         match self.specialize {
-            Specialize::Exactly => scene.traits(),
-            Specialize::Everything => scene.traits().everything(),
+            Specialize::Exactly => traits,
+            Specialize::Everything => traits.everything(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a sequence should look like: its converged frames, its surfaces, and where they changed.
 
-use crate::export;
+use crate::export::{self, Export};
 use crate::film::Film;
 use crate::gpu::Gpu;
 use crate::hash::Hash;
@@ -63,6 +63,7 @@ impl Truth {
         let mut reference = Reference::new(gpu, suite.size, &settings)?;
         let mut moments: Vec<Moment> = Vec::new();
         let mut seen = None;
+        let mut frames = Export::default();
         for index in suite.first()..suite.first() + suite.frames {
             let (pose, camera) = script.frame(index);
             move_to(gpu, &mut scene, &pose)?;
@@ -79,7 +80,7 @@ impl Truth {
                 }
             };
             if let Some(folder) = export {
-                export::write_frame(&folder.join(format!("frame_{index:04}.exr")), &mut film)?;
+                frames.write(&folder.join(format!("frame_{index:04}.exr")), &mut film)?;
                 let path = folder.join(format!("reference_{index:04}.exr"));
                 write_exr_rgb(path, suite.size[0], suite.size[1], &converged)?;
             }

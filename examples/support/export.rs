@@ -9,23 +9,43 @@ use serde_json::json;
 use std::fs;
 use std::path::Path;
 
-/// Writes the last frame, with all layers that it has.
-pub fn write_frame(path: &Path, film: &mut Film<'_>) -> Result<(), Box<dyn std::error::Error>> {
-    let [width, height] = film.denoiser.size();
-    let mut image = Channels { width, height, channels: Vec::new() };
-    for layer in Layer::ALL {
-        let Some((view, value)) = source(layer) else { continue };
-        let pixels = match film.numbers(view) {
-            Ok(pixels) => pixels,
-            // Nothing emits, nothing moves by itself, or α does not adapt.
-            Err(Error::NoView { .. }) => continue,
-            Err(error) => return Err(error.into()),
-        };
-        for (i, name) in layer.channels().into_iter().enumerate() {
-            image.channels.push((name, pixels.iter().map(|&pixel| value(pixel)[i]).collect()));
+/// Writes frames of one sequence, which have all the same layers.
+#[derive(Default)]
+pub struct Export {
+    /// Those of the first frame: it is new, so that nothing was left out of it.
+    layers: Option<Vec<Layer>>,
+}
+
+impl Export {
+    /// Writes the last frame.
+    pub fn write(&mut self, path: &Path, film: &mut Film<'_>) -> Result<(), Box<dyn std::error::Error>> {
+        let [width, height] = film.denoiser.size();
+        let mut image = Channels { width, height, channels: Vec::new() };
+        let mut found = Vec::new();
+        for layer in Layer::ALL {
+            let Some((view, value)) = source(layer) else { continue };
+            let expected = self.layers.as_ref().is_none_or(|layers| layers.contains(&layer));
+            let pixels = match film.numbers(view) {
+                Ok(pixels) => pixels,
+                // Nothing changed: no path was repeated.
+                Err(Error::NoView { .. }) if self.layers.is_some() && expected => {
+                    vec![[-1.0; 3]; (width * height) as usize]
+                }
+                // Nothing emits, nothing moves by itself, or α does not adapt.
+                Err(Error::NoView { .. }) => continue,
+                Err(error) => return Err(error.into()),
+            };
+            if !expected {
+                continue;
+            }
+            found.push(layer);
+            for (i, name) in layer.channels().into_iter().enumerate() {
+                image.channels.push((name, pixels.iter().map(|&pixel| value(pixel)[i]).collect()));
+            }
         }
+        self.layers.get_or_insert(found);
+        Ok(image_io::write_exr(path, &image)?)
     }
-    Ok(image_io::write_exr(path, &image)?)
 }
 
 /// A layer's components in a pixel of a view.

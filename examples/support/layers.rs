@@ -86,6 +86,11 @@ impl Layer {
         matches!(self, Self::Color | Self::Normal | Self::Depth)
     }
 
+    /// Whether it holds what paths were repeated, of which a frame may have none.
+    pub fn is_of_pairs(self) -> bool {
+        matches!(self, Self::GradientCurrent | Self::GradientPrevious)
+    }
+
     /// The full names of its channels.
     pub fn channels(self) -> Vec<String> {
         let front = if self == Self::Color { "" } else { self.name() };

@@ -9,20 +9,64 @@ use crate::times::PassTimes;
 use asvgf::wgpu::{self, TextureFormat, TextureUsages, TextureView};
 use asvgf::{Error, Gradient, Lambda, Pairs, Shading, Surfaces};
 
+/// What denoising a sequence told.
+pub struct Denoised {
+    /// Of each frame.
+    pub times: Vec<PassTimes>,
+    /// The first frame with the noise of the one before: from there on, each is denoised by itself.
+    pub repeated: Option<u32>,
+}
+
 /// Denoises a sequence, calling back after each frame.
 pub fn denoise(
     film: &mut Film<'_>,
     sequence: &Sequence,
     mut done: impl FnMut(u32, &mut Film<'_>) -> Result<(), Box<dyn std::error::Error>>,
-) -> Result<Vec<PassTimes>, Box<dyn std::error::Error>> {
-    let mut times = Vec::new();
+) -> Result<Denoised, Box<dyn std::error::Error>> {
+    let mut denoised = Denoised { times: Vec::new(), repeated: None };
+    let mut last: Option<Pixels> = None;
     for frame in sequence.first..=sequence.last {
         let cameras = [frame, frame.saturating_sub(1).max(sequence.first)].map(|frame| sequence.camera(frame));
-        let views = Views::new(film.gpu, sequence.size, &sequence.read(frame)?, cameras);
-        times.push(expose(film, &views, cameras[0], frame, sequence.in_place)?);
+        let pixels = sequence.read(frame)?;
+        let views = Views::new(film.gpu, sequence.size, &pixels, cameras);
+        if last.is_some_and(|last| repeats_noise(&last, &pixels, cameras)) {
+            denoised.repeated.get_or_insert(frame);
+        }
+        // Such frames are one sample, however many there are: an average of them is no better, and looks as if it were.
+        if denoised.repeated.is_some() {
+            film.denoiser.reset();
+        }
+        denoised.times.push(expose(film, &views, cameras[0], frame, sequence.in_place)?);
         done(frame, film)?;
+        last = Some(pixels);
     }
-    Ok(times)
+    Ok(denoised)
+}
+
+/// Pixels at rest that have to show the same noise, of those with light, before it is taken to be repeated.
+const REPEATED: f32 = 0.5;
+
+/// Fewest pixels at rest that tell anything.
+const FEWEST: usize = 64;
+
+/// Whether a frame has the random numbers of the last one, as those of renderers with a fixed seed have: then what is at rest shows
+/// the same radiance to the last bit.
+fn repeats_noise(last: &Pixels, now: &Pixels, [camera, before]: [Camera; 2]) -> bool {
+    let radiance = |pixels| Pixels::get(pixels, Layer::Color).unwrap_or_default();
+    let depth = now.get(Layer::Depth).unwrap_or_default();
+    let motion = now.get(Layer::Motion);
+    let rests = |i: usize| match motion {
+        Some(motion) => motion[2 * i].abs().max(motion[2 * i + 1].abs()) < 1e-3,
+        None => camera == before,
+    };
+    let (mut counted, mut same) = (0, 0);
+    for (i, (a, b)) in radiance(last).chunks_exact(3).zip(radiance(now).chunks_exact(3)).enumerate() {
+        if depth[i] > 0.0 && rests(i) && b.iter().any(|x| *x != 0.0) {
+            counted += 1;
+            same += usize::from(a == b);
+        }
+    }
+    counted >= FEWEST && same as f32 > REPEATED * counted as f32
 }
 
 /// A frame's layers on the GPU.
@@ -35,7 +79,7 @@ impl Views {
     /// Uploads a frame. Where there is no motion, that of points at rest between the last camera and this one is taken.
     fn new(gpu: &Gpu, size: [u32; 2], pixels: &Pixels, cameras: [Camera; 2]) -> Self {
         let mut views = Layer::ALL.map(|layer| pixels.get(layer).map(|samples| upload(gpu, size, layer, samples)));
-        let depth = depths(pixels);
+        let depth = depths(pixels, size);
         views[Layer::Depth as usize] = Some(upload(gpu, size, Layer::Depth, &depth));
         let given = views[Layer::Motion as usize].clone();
         let motion = given.unwrap_or_else(|| upload(gpu, size, Layer::Motion, &motion(size, &depth, cameras)));
@@ -77,17 +121,36 @@ fn expose(film: &mut Film<'_>, views: &Views, camera: Camera, index: u32, in_pla
 }
 
 /// The depths of what is to be filtered. A light that reflects nothing is not: its zeros would darken what lies beside it.
-fn depths(pixels: &Pixels) -> Vec<f32> {
+fn depths(pixels: &Pixels, [width, height]: [u32; 2]) -> Vec<f32> {
     let mut depths = pixels.get(Layer::Depth).unwrap_or_default().to_vec();
-    if let (Some(albedo), Some(emission)) = (pixels.get(Layer::Albedo), pixels.get(Layer::Emission)) {
-        for ((depth, a), e) in depths.iter_mut().zip(albedo.chunks_exact(3)).zip(emission.chunks_exact(3)) {
-            if a == [0.0; 3] && e != [0.0; 3] {
-                *depth = 0.0;
+    let layers = (pixels.get(Layer::Albedo), pixels.get(Layer::Emission), pixels.get(Layer::Color));
+    let (Some(albedo), Some(emission), Some(color)) = layers else { return depths };
+    let black = |i: usize| albedo[3 * i..3 * i + 3] == [0.0; 3];
+    let sum = |image: &[f32], i: usize| image[3 * i..3 * i + 3].iter().sum::<f32>();
+    for i in (0..depths.len()).filter(|&i| black(i) && sum(emission, i) != 0.0) {
+        // Of pixels like it around, as one path alone may have found nothing.
+        let (x, y) = ((i as u32 % width) as i32, (i as u32 / width) as i32);
+        let near = |at: i32, size: u32| (at - AROUND).max(0)..=(at + AROUND).min(size as i32 - 1);
+        let (mut light, mut emitted) = (0.0, 0.0);
+        for j in near(y, height).flat_map(|y| near(x, width).map(move |x| (y * width as i32 + x) as usize)) {
+            if black(j) {
+                light += (sum(color, j) - sum(emission, j)).max(0.0);
+                emitted += sum(emission, j);
             }
+        }
+        // A mirror that glows faintly, in a renderer that writes the diffuse albedo, is lit all the same.
+        if light <= REFLECTED * emitted {
+            depths[i] = 0.0;
         }
     }
     depths
 }
+
+/// Pixels to each side.
+const AROUND: i32 = 2;
+
+/// Part of the emission beyond which what comes with it is light, not rounding.
+const REFLECTED: f32 = 0.02;
 
 /// The motion of points at rest between two cameras, this frame's first.
 fn motion(size: [u32; 2], depth: &[f32], [now, before]: [Camera; 2]) -> Vec<f32> {

@@ -127,7 +127,13 @@ impl Sequence {
         let path = self.path(frame);
         let image = image_io::read_exr(&path).map_err(|e| SequenceError(e.to_string()))?;
         let places = self.places(&path, &image)?;
-        let samples = places.into_iter().map(|place| place.map(|place| self.samples(frame, &place, &image)));
+        let count = (self.size[0] * self.size[1]) as usize;
+        let samples = Layer::ALL.into_iter().zip(places).map(|(layer, place)| match place {
+            Some(place) => Some(self.samples(frame, &place, &image)),
+            // There is no pair in this frame.
+            None if self.has(layer) && layer.is_of_pairs() => Some(vec![-1.0; layer.components().len() * count]),
+            None => None,
+        });
         Ok(Pixels(samples.collect()))
     }
 
@@ -205,7 +211,10 @@ impl Sequence {
                 format!("is {w}×{h} pixels, and {start} is {width}×{height}: all must be of one size"),
             ));
         }
-        for layer in Layer::ALL {
+        // A frame in which nothing has changed needs no pairs.
+        let pairs = found.iter().copied().filter(|layer| layer.is_of_pairs() && !self.has(*layer));
+        self.layers.extend(pairs.collect::<Vec<_>>());
+        for layer in Layer::ALL.into_iter().filter(|layer| !layer.is_of_pairs()) {
             let channels = layer.channels().join(", ");
             match (found.contains(&layer), self.has(layer)) {
                 (false, true) => {

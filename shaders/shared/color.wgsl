@@ -11,6 +11,15 @@ fn is_finite(x: f32) -> bool {
     return (bitcast<u32>(x) & 0x7f800000u) != 0x7f800000u;
 }
 
+fn is_nan(x: f32) -> bool {
+    return (bitcast<u32>(x) & 0x7fffffffu) > 0x7f800000u;
+}
+
+// +∞, and not −∞.
+fn is_infinite(x: f32) -> bool {
+    return bitcast<u32>(x) == 0x7f800000u;
+}
+
 // The brightest that enters the filter. Its square, weighted and summed over strata and rescaled by ratios, is far below f32's
 // 3·10³⁸: an infinite variance would become 0·∞, which is NaN, and stay in the history.
 const BRIGHTEST: f32 = 1e15;

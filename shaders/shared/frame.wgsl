@@ -31,8 +31,10 @@ struct Frame {
     seed: u32,
     // 1 where there is history to reproject, 0 after a restart.
     continued: u32,
-    // Samples per pixel.
+    // Samples per pixel, and those of them that this dispatch traces.
     samples: u32,
+    batch: u32,
+    first_sample: u32,
     bounces: u32,
     // First bounce at which Russian roulette may end a path.
     roulette: u32,

@@ -3,8 +3,8 @@
 // A host's light, cleaned before it reaches history: what ingest_radiance.wgsl stores, or (HOST_LIGHT) what others read
 // instead.
 
-#import asvgf::color::{BRIGHTEST, is_finite, sanitize}
-#import asvgf::packing::pack_rgb
+#import asvgf::color::{BRIGHTEST, is_finite, is_infinite, is_nan, sanitize}
+#import asvgf::packing::{NO_SAMPLE, pack_rgb}
 #ifdef ALBEDO
 #import asvgf::packing::round_to_f16
 #endif
@@ -23,22 +23,42 @@ var<private> not_finite: bool = false;
 var<private> below_zero: bool = false;
 #endif
 
-fn clean(color: vec3<f32>) -> vec3<f32> {
+// What an infinite channel becomes: the largest finite number of the 16-bit floats in which most renderers write.
+const INFINITE: f32 = 65504.0;
+
 #ifdef DIAGNOSTICS
-    let finite = vec3(is_finite(color.x), is_finite(color.y), is_finite(color.z));
+fn count(color: vec3<f32>, finite: vec3<bool>) {
     not_finite |= !all(finite);
     below_zero |= any(finite & (color < vec3(0.0)));
+}
 #endif
-    return sanitize(color);
+
+fn are_finite(color: vec3<f32>) -> vec3<bool> {
+    return vec3(is_finite(color.x), is_finite(color.y), is_finite(color.z));
+}
+
+fn clean(color: vec3<f32>) -> vec3<f32> {
+#ifdef DIAGNOSTICS
+    count(color, are_finite(color));
+#endif
+    let infinite = vec3(is_infinite(color.x), is_infinite(color.y), is_infinite(color.z));
+    return sanitize(select(color, vec3(INFINITE), infinite));
 }
 
 #ifdef ALBEDO
-// What the filtered radiance is multiplied with; `hit` where there is a surface.
+// What the filtered radiance is multiplied with; `hit` where there is a surface. An albedo that is no number is unknown, and
+// divides by nothing. Nor does one of 0: what is seen there all the same comes by ways that this albedo does not tell of (a mirror
+// in a renderer that writes the diffuse albedo), and would be taken for a thousand times as bright as what is around.
 fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+    let given = textureLoad(albedo, pixel, 0).xyz;
+    let finite = are_finite(given);
+#ifdef DIAGNOSTICS
+    count(given, finite);
+#endif
     // Below the limit of f16.
-    var a = min(clean(textureLoad(albedo, pixel, 0).xyz), vec3(65472.0));
+    var a = select(vec3(1.0), min(sanitize(given), vec3(65472.0)), finite);
 #ifdef MODULATED
-    a = select(vec3(1.0), max(a, vec3(1e-3)), hit);
+    a = select(vec3(1.0), max(a, vec3(1e-3)), hit && any(a > vec3(0.0)));
 #endif
     return round_to_f16(a);
 }
@@ -50,9 +70,11 @@ fn host_emission(pixel: vec2<i32>) -> vec2<u32> {
 }
 #endif
 
-// The light alone, r = max(radiance − emission, 0) / divisor, the divisor being the albedo, if that is in it.
+// The light alone, r = max(radiance − emission, 0) / divisor, the divisor being the albedo, if that is in it. What is no number
+// is no sample.
 fn host_radiance(pixel: vec2<i32>, divisor: vec3<f32>) -> vec2<u32> {
-    var r = clean(textureLoad(radiance, pixel, 0).xyz);
+    let given = textureLoad(radiance, pixel, 0).xyz;
+    var r = clean(given);
 #ifdef MODULATED
 #ifdef DIRECT_EMISSION
     // Where colour and emission disagree by a pixel, as at a light's edge, light must not become negative.
@@ -62,7 +84,8 @@ fn host_radiance(pixel: vec2<i32>, divisor: vec3<f32>) -> vec2<u32> {
     r /= divisor;
 #endif
 #endif
-    return pack_rgb(min(r, vec3(BRIGHTEST)));
+    let missing = is_nan(given.x) | is_nan(given.y) | is_nan(given.z);
+    return select(pack_rgb(min(r, vec3(BRIGHTEST))), NO_SAMPLE, missing);
 }
 
 // As `host_radiance`, by the pixel's own albedo.

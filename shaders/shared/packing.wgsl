@@ -25,6 +25,13 @@ fn unpack_rgb(bits: vec2<u32>) -> vec3<f32> {
     );
 }
 
+// What stands for a radiance where there is none: an exponent that no radiance has. Read as one, it is black.
+const NO_SAMPLE: vec2<u32> = vec2(0u, 0x400000u);
+
+fn is_sample(bits: vec2<u32>) -> bool {
+    return bits.y != NO_SAMPLE.y;
+}
+
 // A non-negative float in 16 bits: 6 of exponent, 10 of mantissa, 2⁻³¹ … 2³³, half an ulp 2⁻¹². It is f16 with the sign's bit
 // given to the exponent, made with integers because not every driver has pack2x16float.
 fn pack_unsigned(x: f32) -> u32 {
@@ -42,6 +49,14 @@ fn pack_tap(color: vec3<f32>, deviation: f32) -> vec2<u32> {
         pack_unsigned(color.x) | (pack_unsigned(color.y) << 16u),
         pack_unsigned(color.z) | (pack_unsigned(deviation) << 16u),
     );
+}
+
+// Where neither a sample nor a history tells anything: black, with a deviation that is greater than any that is packed, so that
+// nothing stops what is around from filling it.
+const UNKNOWN_TAP: vec2<u32> = vec2(0u, 0xffff0000u);
+
+fn is_known(tap: vec2<u32>) -> bool {
+    return tap.y < UNKNOWN_TAP.y;
 }
 
 fn tap_color(tap: vec2<u32>) -> vec3<f32> {

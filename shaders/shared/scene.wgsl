@@ -1,7 +1,7 @@
 #define_import_path asvgf::scene
 
 // The scene as src/scene/upload.rs lays it out: the visibility lookup table of triangle vertices, the BVH that obvhs
-// builds, placements for this and the previous frame, surfaces and lights.
+// builds, placements, surfaces and lights.
 
 struct Scene {
     // Texel of `geometry` at which the instances' records begin.
@@ -35,6 +35,10 @@ struct Scene {
 @group(1) @binding(1) var geometry: texture_storage_2d<rgba32uint, read>;
 #else
 @group(1) @binding(1) var geometry: texture_2d<u32>;
+#endif
+#ifdef INSTANCED
+// Where the instances were in the last frame, three rows of an affine map each.
+@group(1) @binding(2) var<storage, read> placements_previous: array<vec4<f32>>;
 #endif
 // Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
@@ -173,7 +177,7 @@ fn transform_normal(inverse: Placement, n: vec3<f32>) -> vec3<f32> {
 }
 
 fn instance_record(instance: u32, part: u32) -> Placement {
-    let first = scene.instances + instance * 12u + part * 3u;
+    let first = scene.instances + instance * 9u + part * 3u;
     return Placement(
         bitcast<vec4<f32>>(geometry_word(first)),
         bitcast<vec4<f32>>(geometry_word(first + 1u)),
@@ -189,18 +193,21 @@ fn world_to_object(instance: u32) -> Placement {
     return instance_record(instance, 1u);
 }
 
+#ifdef INSTANCED
 fn previous_object_to_world(instance: u32) -> Placement {
-    return instance_record(instance, 2u);
+    let first = instance * 3u;
+    return Placement(placements_previous[first], placements_previous[first + 1u], placements_previous[first + 2u]);
 }
+#endif
 
 // Grid of the boxes of the instance's tree: where it begins, and its step.
 fn instance_grid(instance: u32) -> mat2x3<f32> {
-    let first = scene.instances + instance * 12u + 9u;
+    let first = scene.instances + instance * 9u + 6u;
     return mat2x3(bitcast<vec3<f32>>(geometry_word(first).xyz), bitcast<vec3<f32>>(geometry_word(first + 1u).xyz));
 }
 
 // Root node of the mesh's tree; the instance's first number in the visibility buffer; its first light; its mesh's first row
 // of the lookup table, doubled, plus 1 where the placement mirrors.
 fn instance_numbers(instance: u32) -> vec4<u32> {
-    return geometry_word(scene.instances + instance * 12u + 11u);
+    return geometry_word(scene.instances + instance * 9u + 8u);
 }

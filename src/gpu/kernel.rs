@@ -1,6 +1,6 @@
 //! A compiled shader whose bindings are known by name: the layout follows from the shader, which is the single truth.
 
-use super::compose::{Permutation, Shaders};
+use super::compose::Permutation;
 use crate::Error;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 use wgpu::naga::{self, AddressSpace, ImageClass, Module, ScalarKind, StorageAccess, TypeInner};
@@ -29,8 +29,8 @@ pub(crate) struct Used {
 }
 
 impl Kernel {
-    pub fn new(device: &Device, shaders: &mut Shaders, permutation: Permutation) -> Result<Self, Error> {
-        let module = shaders.compose(permutation)?;
+    /// Compiles a permutation's composed module.
+    pub fn new(device: &Device, module: Module, permutation: Permutation) -> Result<Self, Error> {
         let used = used_bindings(&module).map_err(|message| Error::Shader {
             shader: permutation.pass.name(),
             features: format!("{:?}", permutation.features),

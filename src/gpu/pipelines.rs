@@ -9,23 +9,29 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use wgpu::Device;
 
 /// The compiled shaders of a device. A clone is another handle to the same: hand it to further denoisers
-/// ([`DenoiserDescriptor::pipelines`](crate::DenoiserDescriptor::pipelines)), and each shader is compiled once.
+/// ([`DenoiserDescriptor::pipelines`](crate::DenoiserDescriptor::pipelines)), and each shader is compiled once. While one is being
+/// compiled, only who needs that very shader waits.
 #[derive(Clone)]
 pub struct Pipelines {
     device: Device,
-    cache: Arc<Mutex<Cache>>,
+    shared: Arc<Shared>,
 }
 
-struct Cache {
-    shaders: Shaders,
-    kernels: HashMap<Permutation, Arc<Kernel>>,
+/// A shader that is compiled, or is being compiled by who holds the lock.
+type Slot = Arc<Mutex<Option<Arc<Kernel>>>>;
+
+/// Locks are taken in this order: a slot's, then either of these, and each of these for as long as it takes to look something up or
+/// to compose a source. A driver compiles, for seconds, under the slot's alone.
+struct Shared {
+    composer: Mutex<Shaders>,
+    slots: Mutex<HashMap<Permutation, Slot>>,
 }
 
 impl Pipelines {
     /// None compiled yet.
     pub(crate) fn new(device: &Device) -> Result<Self, Error> {
-        let cache = Cache { shaders: Shaders::new()?, kernels: HashMap::new() };
-        Ok(Self { device: device.clone(), cache: Arc::new(Mutex::new(cache)) })
+        let shared = Shared { composer: Mutex::new(Shaders::new()?), slots: Mutex::default() };
+        Ok(Self { device: device.clone(), shared: Arc::new(shared) })
     }
 
     /// Whether they are this device's. wgpu numbers devices by instance, and cannot tell those of two instances apart.
@@ -35,28 +41,71 @@ impl Pipelines {
 
     /// The compiled shader; compiles it if that was not done.
     pub(crate) fn kernel(&self, permutation: Permutation) -> Result<Arc<Kernel>, Error> {
-        let mut cache = self.lock();
-        if let Some(kernel) = cache.kernels.get(&permutation) {
+        let slot = self.slot(permutation);
+        let mut slot = lock(&slot);
+        if let Some(kernel) = &*slot {
             return Ok(kernel.clone());
         }
-        let kernel = Arc::new(Kernel::new(&self.device, &mut cache.shaders, permutation)?);
-        cache.kernels.insert(permutation, kernel.clone());
-        Ok(kernel)
+        let module = lock(&self.shared.composer).compose(permutation)?;
+        let kernel = Arc::new(Kernel::new(&self.device, module, permutation)?);
+        Ok(slot.insert(kernel).clone())
     }
 
-    /// How many are compiled.
+    fn slot(&self, permutation: Permutation) -> Slot {
+        lock(&self.shared.slots).entry(permutation).or_default().clone()
+    }
+
+    /// How many are compiled; one that is being compiled is not.
     pub fn count(&self) -> usize {
-        self.lock().kernels.len()
+        let slots: Vec<Slot> = lock(&self.shared.slots).values().cloned().collect();
+        slots.iter().filter(|slot| slot.try_lock().is_ok_and(|slot| slot.is_some())).count()
     }
+}
 
-    /// Nothing is half done when a thread panics here: a kernel is in the map or not.
-    fn lock(&self) -> MutexGuard<'_, Cache> {
-        self.cache.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// Nothing is half done when a thread panics here: a kernel is in its slot or not.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl fmt::Debug for Pipelines {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Pipelines").field("count", &self.count()).finish()
+    }
+}
+
+#[cfg(all(test, feature = "path-tracer"))]
+mod tests {
+    use super::*;
+    use crate::passes::Pass;
+    use crate::plan::{Feature, Features, Traversal};
+    use crate::twins::gpu::gpu;
+    use std::sync::mpsc;
+    use std::time::Duration;
+
+    #[test]
+    fn whoever_has_what_it_needs_does_not_wait_for_others_to_compile() {
+        let pipelines = Pipelines::new(&gpu().device).unwrap();
+        let of = |features: &[Feature]| Permutation {
+            pass: Pass::Variance,
+            features: Features::of(features),
+            traversal: Traversal::default(),
+            view: 0,
+        };
+        let (ready, busy) = (of(&[]), of(&[Feature::VarianceOfMean]));
+        pipelines.kernel(ready).unwrap();
+        // As long as this is held, the second is being compiled.
+        let slot = pipelines.slot(busy);
+        let compiling = lock(&slot);
+        let (sender, receiver) = mpsc::channel();
+        let others = pipelines.clone();
+        std::thread::spawn(move || {
+            let kernel = others.kernel(ready).map(|_| ());
+            sender.send((kernel.is_ok(), others.count())).unwrap();
+        });
+        let found = receiver.recv_timeout(Duration::from_secs(60)).expect("the other denoiser does not wait");
+        assert_eq!(found, (true, 1));
+        drop(compiling);
+        pipelines.kernel(busy).unwrap();
+        assert_eq!(pipelines.count(), 2);
     }
 }

@@ -12,7 +12,7 @@ use wgpu::{
 pub struct FrameTimes {
     /// `Frame::index`, or `Surfaces::index`.
     pub frame: u32,
-    /// Name of each pass and its milliseconds, in order; iterations one by one.
+    /// Name of each pass and its milliseconds, in order; iterations one by one. At most the first 2048 dispatches of a frame.
     pub passes: Vec<(&'static str, f64)>,
 }
 
@@ -29,10 +29,15 @@ pub(crate) struct Timing {
     done: Mailbox<FrameTimes>,
 }
 
+/// Passes whose two timestamps fit into one query set.
+const MOST_PASSES: usize = wgpu::QUERY_SET_MAX_QUERIES as usize / 2;
+
 /// The queries of one frame.
 #[derive(Debug)]
 pub(crate) struct FrameQueries {
     set: QuerySet,
+    /// Passes that it has timestamps for.
+    room: usize,
     names: Vec<&'static str>,
     frame: u32,
 }
@@ -43,14 +48,14 @@ impl Timing {
         Self { milliseconds_per_tick, done: Mailbox::default() }
     }
 
-    /// Queries for a frame of `passes` passes.
+    /// Queries for a frame of up to `passes` passes; passes beyond what a query set can hold are not timed.
     pub fn begin(&self, device: &Device, frame: u32, passes: usize) -> FrameQueries {
         let set = device.create_query_set(&QuerySetDescriptor {
             label: Some("asvgf timestamps"),
             ty: QueryType::Timestamp,
-            count: 2 * passes as u32,
+            count: 2 * passes.min(MOST_PASSES) as u32,
         });
-        FrameQueries { set, names: Vec::new(), frame }
+        FrameQueries { set, room: passes.min(MOST_PASSES), names: Vec::new(), frame }
     }
 
     /// Resolves a frame's queries and maps them once the host has submitted.
@@ -79,14 +84,16 @@ impl Timing {
 }
 
 impl FrameQueries {
-    /// Where the next pass writes its two timestamps.
-    pub fn next(&mut self, name: &'static str) -> ComputePassTimestampWrites<'_> {
+    /// Where the next pass writes its two timestamps; `None` where there is no room left.
+    pub fn next(&mut self, name: &'static str) -> Option<ComputePassTimestampWrites<'_>> {
         let first = 2 * self.names.len() as u32;
-        self.names.push(name);
-        ComputePassTimestampWrites {
-            query_set: &self.set,
-            beginning_of_pass_write_index: Some(first),
-            end_of_pass_write_index: Some(first + 1),
-        }
+        (self.names.len() < self.room).then(|| {
+            self.names.push(name);
+            ComputePassTimestampWrites {
+                query_set: &self.set,
+                beginning_of_pass_write_index: Some(first),
+                end_of_pass_write_index: Some(first + 1),
+            }
+        })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Lambda, Reshade, Shading, Surfaces, views};
 use crate::Error;
-use crate::denoiser::{Denoiser, LastFrame, Resources, Source};
+use crate::denoiser::{Denoiser, LastFrame, Light, Resources, Source};
 use crate::gpu::counts::Counters;
 use crate::gpu::frame::Moment;
 use crate::gpu::timing::FrameQueries;
@@ -107,14 +107,15 @@ impl Denoiser {
         let mut traits = HostTraits { diagnostics, views, ..Default::default() };
         views::surfaces(&mut traits, surfaces, self.size)?;
         // What the light's views will have changes neither this half nor which of its images outlive the frame.
-        let all = |changes| Plan::hosted(&traits, &self.settings, changes, TextureFormat::Rgba32Float);
+        let most_bits = TextureFormat::Rgba32Float;
+        let all = |changes| Plan::hosted(&traits, &self.settings, changes, most_bits);
         let most = self.adapt(all(Changes::ANY));
         let index = surfaces.index;
         let history = self.history && self.textures.has_all_before(&most);
         let last = self.last.as_ref().filter(|l| {
             // Motion leads to the frame before, and a mean over frames is only one of frames that are alike.
             history
-                && l.source == Source::Host
+                && matches!(l.source, Source::Host(_))
                 && l.index.wrapping_add(1) == index
                 && (self.settings.mode != Mode::Reference || l.camera == camera)
         });
@@ -131,9 +132,11 @@ impl Denoiser {
         self.history = history;
         self.textures.begin();
         self.textures.place(device, self.size, &plan, (0, steps.len()), most.images());
-        let uniform = self.frame_uniform(device, &moment);
+        let uniform = self.frame_uniform(device, &moment, &[]);
         let counts = self.counters.as_ref().map(|_| Counters::begin(device));
-        let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, plan.steps.len()));
+        // If the light comes in the target's texture, it is copied: no frame has more passes.
+        let passes = Plan::hosted(&HostTraits { in_target: true, ..traits }, &self.settings, changes, most_bits).steps;
+        let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, passes.len()));
         let host = |name: &str| surfaces.resource(name);
         let resources = Resources { counts: counts.as_ref(), ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;
@@ -186,14 +189,19 @@ impl Denoiser {
         let Some(Begun { mut moment, mut uniform, motion, counts, mut queries, .. }) = self.begun.take() else {
             return Err(Error::NotBegun);
         };
-        let lost = !self.textures.has_all_before(&plan);
+        let light = Light {
+            textures: !traits.albedo && !traits.demodulated,
+            emission: !traits.emission && !traits.demodulated,
+        };
+        let same_light = |l: &LastFrame| matches!(l.source, Source::Host(before) if before == light);
+        let lost = !self.textures.has_all_before(&plan) || !self.last.as_ref().is_some_and(same_light);
         self.textures.place(device, self.size, &plan, (plan.surface_steps(), plan.steps.len()), images);
         let block = shading.lambda.as_ref().map_or(1, |l: &Lambda<'_>| l.block);
         if (lost && moment.continued) || block != 1 {
-            // An image of the last frame that is new now (an albedo, say) has nothing to compare with.
+            // An image that the last frame did not have (an albedo, say) has nothing to compare with.
             moment.continued &= !lost;
             moment.lambda_block = block;
-            uniform = self.frame_uniform(device, &moment);
+            uniform = self.frame_uniform(device, &moment, &[]);
         }
         let host = |name: &str| shading.resource(name).or_else(|| motion.resource(name));
         let target = Some(shading.target);
@@ -207,7 +215,7 @@ impl Denoiser {
         }
         self.history = true;
         let Moment { camera, index, .. } = moment;
-        self.last = Some(LastFrame { plan, uniform, camera, source: Source::Host, index });
+        self.last = Some(LastFrame { plan, uniform, camera, source: Source::Host(light), index });
         Ok(())
     }
 

@@ -3,7 +3,8 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] = &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit];
+const FEATURES: &[Feature] =
+    &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit, Feature::MissingSamples];
 
 /// Only the first iteration smooths the variance and feeds the history.
 const FIRST: &[Feature] = &[Feature::FirstIteration, Feature::Feedback];

@@ -16,6 +16,8 @@ const FEATURES: &[Feature] = &[
     Feature::Feedback,
     Feature::HostMotion,
     Feature::HostLight,
+    Feature::MissingSamples,
+    Feature::KeepWeights,
 ];
 
 /// What a host's radiance is freed of where it is read.
@@ -59,6 +61,7 @@ pub(crate) fn step(given: Features, gradient: Option<Image>) -> Step {
             ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
             ("external_lambda", Slot::Host, &[Feature::ExternalLambda]),
             ("history_out", Slot::Now(Image::History), &[]),
+            ("weights_out", Slot::Now(Image::Weights), &[Feature::KeepWeights]),
         ],
     );
     bindings.retain(|(name, _)| !(features.has(Feature::Still) && REPROJECTION.contains(name)));

@@ -21,13 +21,8 @@ pub(crate) fn step(
         (View::Denoised | View::NonFinite, None) => return missing("nothing is filtered in this mode"),
         _ => Slot::Target,
     };
-    // α depends on λ only where the blend does.
-    let needs_lambda = view == View::Lambda || view == View::Alpha && plan.features.has(Feature::BlendByLambda);
-    if needs_lambda && plan.features.has(Feature::ExternalLambda) {
-        return missing("λ is the host's own image");
-    }
     let gradient = match (view, plan.gradient) {
-        (View::Gradient | View::Lambda | View::Alpha, Some(image)) => Slot::Now(image),
+        (View::Gradient, Some(image)) => Slot::Now(image),
         (View::Gradient, None) if !plan.features.has(Feature::Unchanged) => return missing("the gradient is off"),
         _ => Slot::Target,
     };
@@ -71,10 +66,7 @@ pub(crate) fn step(
         Feature::Albedo,
         Feature::DirectEmission,
         Feature::Background,
-        Feature::BlendByLambda,
         Feature::Pairs,
-        Feature::Gradient,
-        Feature::AcrossSurfaces,
     ];
     let mut features = plan.features.and(Features::of(&known));
     if !matches!(view, View::Denoised | View::Noisy | View::Emission) {
@@ -94,12 +86,6 @@ pub(crate) fn step(
     }
     if view == View::Gradient && plan.features.has(Feature::Unchanged) {
         features = features.with(Feature::Unchanged);
-    }
-    if view != View::Alpha {
-        features = features.without(Feature::BlendByLambda);
-    }
-    if !needs_lambda {
-        features = features.without(Feature::Gradient).without(Feature::AcrossSurfaces);
     }
     match target {
         TextureFormat::Rgba8Unorm => features = features.with(Feature::TargetPicture),
@@ -121,6 +107,7 @@ pub(crate) fn step(
             ("gradient", gradient, &[]),
             ("history", Slot::Now(Image::History), &[]),
             ("sum", Slot::Now(Image::Sum), &[]),
+            ("weights", Slot::Now(Image::Weights), &[]),
             ("target_out", Slot::Target, &[]),
         ],
     );
@@ -135,10 +122,8 @@ pub(crate) fn step(
         View::MotionError => &["guide", "motion"],
         View::Gradient if features.has(Feature::Unchanged) => &[],
         View::Gradient => &["gradient"],
-        View::Lambda if features.has(Feature::Gradient) => &["guide", "samples", "gradient"],
-        View::Lambda => &[],
-        View::Alpha if features.has(Feature::Gradient) => &["history", "guide", "samples", "gradient"],
-        View::Alpha | View::HistoryLength | View::Variance => &["history"],
+        View::Lambda | View::Alpha => &["weights"],
+        View::HistoryLength | View::Variance => &["history"],
         View::NonFinite => &["color"],
         View::Emission => &["emission"],
         View::Object => &["object"],

@@ -1,7 +1,7 @@
 //! Which features a frame asks for, each with its reason.
 
 #[cfg(feature = "path-tracer")]
-use super::Traits;
+use super::{Batches, Traits};
 use super::{Changes, Decision, Feature, HostTraits};
 use crate::settings::{self, Blend, FilterSettings, Kernel, Mode, Settings, Stops, Variance};
 use Feature::*;
@@ -22,6 +22,7 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
     let sampling = settings.tracer.sampling;
     let lights = traits.emitters || traits.punctual_lights || traits.environment;
     let glows = traits.emitters || traits.environment || traits.unlit;
+    let divided = Batches::of(traits, &settings.tracer).count() > 1;
     let rows = [
         (Instanced, traits.instanced, ["a mesh moves or repeats", "nothing moves or repeats: one tree, no placements"]),
         (Objects, traits.instanced, OBJECTS),
@@ -42,10 +43,11 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
         (DirectEmission, glows, ["some surface or the sky is seen to emit", "nothing that is seen emits"]),
         (LightSamplesOnly, sampling == Sampling::Lights, ["the settings say so", "scattered rays find light too"]),
         (ScatteredRaysOnly, sampling == Sampling::Scattered, ["the settings say so", "lights are sampled too"]),
+        (LaterPaths, divided, ["a dispatch of all paths might be taken for hung", "one dispatch traces all paths"]),
         (Unfiltered, settings.mode != Mode::Denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&rows, false, settings, changes)
+    with_filter(&rows, [false, traits.views], settings, changes)
 }
 
 /// Of a frame of the host's renderer.
@@ -76,11 +78,13 @@ pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes)
         (LuminancePairs, pairs && traits.luminance_pairs, ["pairs are luminances", "no pair is a luminance"]),
         (StratumPairs, pairs && traits.stratum_pairs, ["there is one pair per stratum", "pairs stand in their pixels"]),
         (Confidence, lambda && traits.confidence, ["λ is given as 1 − λ", "no confidence is given"]),
+        (MissingSamples, denoise, ["a renderer's pixel may be no number", "no history is kept"]),
+        (RepeatedNoise, denoise, ["a renderer's noise may be the same in every frame", "no history is kept"]),
         (Diagnostics, traits.diagnostics, ["cleaned input is counted", "nobody asked for counts"]),
         (Unfiltered, !denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&rows, pairs && traits.pairs_in_place, settings, changes)
+    with_filter(&rows, [pairs && traits.pairs_in_place, traits.views], settings, changes)
 }
 
 /// Why a host's motion is copied, if it is, and why its light.
@@ -94,16 +98,16 @@ fn why_copies(traits: &HostTraits, reshade: bool) -> [Option<&'static str>; 2] {
     [why, why.or(traits.in_target.then_some("a copy is kept: a shader cannot read what it writes"))]
 }
 
-/// The rows, and what the filter asks for where there is one.
-fn with_filter(rows: &[Row], pairs_in_place: bool, settings: &Settings, changes: Changes) -> Vec<Decision> {
+/// The rows, and what the filter asks for where there is one: of pairs in place, and of frames with views.
+fn with_filter(rows: &[Row], given: [bool; 2], settings: &Settings, changes: Changes) -> Vec<Decision> {
     let filter = match settings.mode {
-        Mode::Denoise => filter(&settings.filter, pairs_in_place, changes),
+        Mode::Denoise => filter(&settings.filter, given, changes),
         Mode::Noisy | Mode::Reference => Vec::new(),
     };
     rows.iter().chain(&filter).map(|&(feature, on, reasons)| Decision::new(feature, on, reasons)).collect()
 }
 
-fn filter(filter: &FilterSettings, pairs_in_place: bool, changes: Changes) -> Vec<Row> {
+fn filter(filter: &FilterSettings, [pairs_in_place, views]: [bool; 2], changes: Changes) -> Vec<Row> {
     use settings::Gradient as Source;
     let source = filter.gradient;
     let strata = matches!(source, Source::Reshade | Source::Pairs | Source::BlinnPhong);
@@ -162,6 +166,7 @@ fn filter(filter: &FilterSettings, pairs_in_place: bool, changes: Changes) -> Ve
             ["published edge stops are set", "noise-subtracted stops are set"],
         ),
         (FullKernel, filter.kernel == Kernel::Full, ["25 taps are set", "13 taps are set"]),
+        (KeepWeights, views, ["α and λ are kept for views", "no view is asked for: α and λ are not kept"]),
         (LocalLinearFit, filter.local_linear_fit, ["a plane is fitted to the taps", "taps are averaged"]),
     ]
 }

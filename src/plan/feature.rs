@@ -125,6 +125,16 @@ features! {
     Confidence,
     /// Input that has to be cleaned is counted.
     Diagnostics,
+    /// Pixels may have no sample: their history goes on, or they are filled from around.
+    MissingSamples,
+    /// Noise may be the same in every frame: neighbours show it where the history does not.
+    RepeatedNoise,
+    /// α and λ are kept for views.
+    KeepWeights,
+    /// Paths of earlier dispatches are added to this one's.
+    EarlierPaths,
+    /// Later dispatches trace the other paths.
+    LaterPaths,
 }
 
 impl Feature {

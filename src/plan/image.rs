@@ -46,6 +46,10 @@ pub enum Image {
     Ratio,
     /// Sum over frames and their number.
     Sum,
+    /// Sum of the paths' radiances so far, and their rays, where several dispatches trace them; two take turns.
+    Paths(u8),
+    /// α and λ.
+    Weights,
 }
 
 /// How many texels an image has, or invocations a pass.
@@ -79,7 +83,8 @@ impl Image {
             | Self::Gradient(_)
             | Self::Ratio => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
-            Self::Sum => TextureFormat::Rgba32Float,
+            Self::Sum | Self::Paths(_) => TextureFormat::Rgba32Float,
+            Self::Weights => TextureFormat::Rg32Float,
         }
     }
 
@@ -126,6 +131,9 @@ impl Image {
             Self::Gradient(_) => "gradient 1",
             Self::Ratio => "ratio",
             Self::Sum => "sum",
+            Self::Paths(0) => "paths 0",
+            Self::Paths(_) => "paths 1",
+            Self::Weights => "weights",
         }
     }
 }

@@ -5,6 +5,8 @@
 //! and writes, and a reason for whatever is in or left out. [`Denoiser`](crate::Denoiser) only carries it out. Printed
 //! (`{plan}`) it is a table; [`Plan::graph`] draws it.
 
+#[cfg(feature = "path-tracer")]
+mod batches;
 mod changes;
 mod choice;
 mod decision;
@@ -14,6 +16,8 @@ mod image;
 mod memory;
 mod traits;
 
+#[cfg(feature = "path-tracer")]
+pub(crate) use batches::Batches;
 pub use changes::Changes;
 pub use decision::Decision;
 pub use feature::{Feature, Features};
@@ -48,17 +52,31 @@ pub struct Step {
     pub features: Features,
     /// Its invocations.
     pub grid: Grid,
-    /// Which iteration of a filter, from 0: taps are 2ⁱ apart.
+    /// Which iteration of a filter, from 0: taps are 2ⁱ apart. Of the path tracer, which batch of the paths.
     pub iteration: u32,
     /// The images behind its bindings, by name.
     pub bindings: Vec<(&'static str, Slot)>,
 }
 
 impl Step {
+    /// Which batch of the frame's paths it traces.
+    pub(crate) fn batch(&self) -> u32 {
+        match self.pass {
+            #[cfg(feature = "path-tracer")]
+            Pass::Trace => self.iteration,
+            _ => 0,
+        }
+    }
+
     /// The same step for an adapter that is the CPU, see [`Feature::StorageReads`].
     pub(crate) fn on_cpu(mut self) -> Self {
         let reads = match self.pass {
-            Pass::GradientPairsFilter | Pass::GradientFilter | Pass::Temporal | Pass::Atrous => true,
+            Pass::GradientPairsFilter | Pass::GradientFilter | Pass::Atrous => true,
+            // With these it writes one storage texture more than leaves room for two that are read.
+            Pass::Temporal => {
+                let has = |feature| self.features.has(feature);
+                !(has(Feature::Feedback) && has(Feature::KeepWeights)) || has(Feature::Still)
+            }
             #[cfg(feature = "path-tracer")]
             Pass::Trace => true,
             // With instances it writes as many storage textures as there may be.
@@ -98,7 +116,8 @@ impl Plan {
         if features.has(Feature::Gradient) {
             plan.steps.push(passes::gradient_sample::step(features));
         }
-        plan.steps.push(passes::trace::step(features));
+        let batches = Batches::of(traits, &settings.tracer).count();
+        plan.steps.extend((0..batches).map(|batch| passes::trace::step(features, batch, batches)));
         plan.filter(settings);
         plan.steps.push(passes::resolve::step(features, plan.color));
         plan

@@ -23,6 +23,10 @@ pub struct Traits {
     pub unlit: bool,
     /// So few triangles, on an adapter that is the CPU, that testing each is faster than a tree.
     pub few_triangles: bool,
+    /// Levels of its trees: the more there are, the fewer paths a dispatch traces.
+    pub levels: u32,
+    /// What a frame leaves is to be shown, see [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+    pub views: bool,
 }
 
 impl Traits {

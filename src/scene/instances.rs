@@ -7,7 +7,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 /// Texels of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
 pub(super) const NODE_TEXELS: usize = 2;
-const RECORD_TEXELS: usize = 12;
+const RECORD_TEXELS: usize = 9;
 
 /// A tree placed in the world.
 #[derive(Debug)]
@@ -49,8 +49,8 @@ pub(super) struct Placed {
     pub grid: Quantization,
 }
 
-/// The top level and the instances' records, with the placements of a pose and the one before.
-pub(super) fn place(instances: &[Instance], pose: &Pose, before: &Pose, first_node: u32) -> Placed {
+/// The top level and the instances' records in a pose.
+pub(super) fn place(instances: &[Instance], pose: &Pose, first_node: u32) -> Placed {
     let boxes: Vec<_> = instances.iter().map(|i| transform_box(i.placement(pose), i.bounds)).collect();
     let top = bvh::over_instances(&boxes, first_node);
     let mut texels = folded::texels(&top.nodes).to_vec();
@@ -61,12 +61,16 @@ pub(super) fn place(instances: &[Instance], pose: &Pose, before: &Pose, first_no
         let mirrored = u32::from(now.determinant() < 0.0);
         texels.extend(rows(now));
         texels.extend(rows(inverse(now)));
-        texels.extend(rows(instance.placement(before)));
         texels.push(padded(instance.grid.base));
         texels.push(padded(instance.grid.step));
         texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
     }
     Placed { texels, depth: top.depth, grid: top.grid }
+}
+
+/// The placements alone, as a later frame reads where instances were.
+pub(super) fn rows_of(instances: &[Instance], pose: &Pose) -> Vec<Texel> {
+    instances.iter().flat_map(|instance| rows(instance.placement(pose))).collect()
 }
 
 fn padded(v: [f32; 3]) -> Texel {

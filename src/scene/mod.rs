@@ -12,6 +12,7 @@ mod lights;
 mod materials;
 mod measure;
 mod pose;
+mod snapshot;
 mod texels;
 mod upload;
 mod validate;
@@ -30,4 +31,5 @@ pub use description::*;
 #[cfg(any(feature = "gltf", feature = "obj"))]
 pub use load::{Loaded, load, load_from_memory};
 pub use pose::CameraView;
+pub(crate) use snapshot::Snapshot;
 pub use upload::GpuScene;

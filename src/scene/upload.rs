@@ -8,12 +8,14 @@ use super::geometry::{self, Geometry};
 use super::instances::{self, Instance, NODE_TEXELS, top_level_nodes, top_level_texels};
 use super::lights::{self, AnalyticLight, Emitter, GpuLight};
 use super::texels::{self, Place};
+use super::snapshot::{Snapshot, Visible};
 use super::{Light, Material, Matrix, Pose, Scene, SceneError, materials};
 use crate::plan::{Traits, Traversal};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use wgpu::{BindingResource, Buffer, BufferUsages, CommandEncoder, Device, DeviceType, Queue, Texture, TextureView};
 
@@ -26,19 +28,18 @@ const LARGEST_STACK: u32 = 64;
 /// Texels of a row of the lookup table, as in shaders/shared/scene.wgsl.
 const ROW_TEXELS: usize = 3;
 
-/// A [`Scene`] on the GPU: geometry and its trees once; placements, materials and lights of this frame and the last.
+/// A [`Scene`] on the GPU: geometry and its trees once; placements, materials and lights as they are now.
 ///
 /// Each mesh is stored once. What stands still is gathered into one tree in world space; meshes that move or repeat get
 /// trees of their own under a second level, which is rebuilt when something moved.
 #[derive(Debug)]
 pub struct GpuScene {
     id: u64,
-    revision: u64,
     traits: Traits,
     stack: u32,
     pose: Pose,
-    /// Whether the records hold two different placements of something.
-    moved: bool,
+    /// The pose as paths see it.
+    snapshot: Arc<Snapshot>,
     instances: Vec<Instance>,
     emitters: Vec<Emitter>,
     light_table: Vec<GpuLight>,
@@ -62,8 +63,6 @@ struct Buffers {
     texels: Buffer,
     materials: (Texture, TextureView),
     lights: (Texture, TextureView),
-    analytic_lights: Buffer,
-    analytic_lights_previous: Buffer,
     facets: Buffer,
     facet_owners: Buffer,
 }
@@ -224,8 +223,9 @@ impl GpuScene {
         header.light_count = light_table.len() as u32;
 
         // One slot for the bottom, one for the mark between the levels, one that is written before it is known to be kept.
-        let (placements, depth) = placements(&mut header, instanced, &instances, &pose, &pose);
+        let (placements, depth) = placements(&mut header, instanced, &instances, &pose);
         let stack = (geometry.depth + depth + 3).next_multiple_of(4);
+        traits.levels = geometry.depth + depth;
         if stack > LARGEST_STACK {
             let reason = format!("their tree has {stack} levels, {LARGEST_STACK} at most can be traversed");
             return Err(SceneError { file: "scene".into(), element: "triangles".into(), reason });
@@ -244,16 +244,19 @@ impl GpuScene {
             let view = texture.create_view(&Default::default());
             (texture, view)
         };
+        let id = {
+            static NEXT: AtomicU64 = AtomicU64::new(1);
+            NEXT.fetch_add(1, Ordering::Relaxed)
+        };
+        let nodes = instances.iter().filter_map(|i| i.node).chain(punctual.iter().map(|p| p.node));
+        let visible = Visible::new(&pose, nodes);
         let mut this = Self {
-            id: {
-                static NEXT: AtomicU64 = AtomicU64::new(1);
-                NEXT.fetch_add(1, Ordering::Relaxed)
-            },
-            revision: 0,
+            id,
             traits,
             stack,
             pose: pose.clone(),
-            moved: false,
+            // Its buffers are replaced below, once the lights have their places.
+            snapshot: Arc::new(Snapshot { scene: id, visible, placements: empty.clone(), analytic_lights: empty.clone() }),
             instances,
             emitters: emitters.into_values().collect(),
             light_table,
@@ -270,10 +273,8 @@ impl GpuScene {
                     let materials = materials::materials(&scene.materials, &pose.emission, &images);
                     folded("materials", folded::texels(&materials))
                 },
-                // Replaced below, once the lights have their places.
+                // As above.
                 lights: folded("lights", &[]),
-                analytic_lights: empty.clone(),
-                analytic_lights_previous: empty.clone(),
                 facets: empty.clone(),
                 facet_owners: empty,
             },
@@ -281,16 +282,16 @@ impl GpuScene {
             triangles: geometry.rows.len(),
             few: traits.few_triangles.then(|| geometry.rows.iter().map(|row| row.map(corner)).collect()),
         };
-        this.place_lights(device);
+        let visible = this.visible();
+        this.snapshot = this.take_snapshot(device, visible);
         this.buffers.lights = folded("lights", folded::texels(&this.light_table));
         this.upload_facets(device);
-        this.buffers.analytic_lights_previous = this.buffers.analytic_lights.clone();
         Ok(this)
     }
 
-    /// Moves what moves and dims what dims. The pose before becomes the previous frame's: call this once per frame, even if
-    /// nothing moved, so that motion ends when movement does. What changes is recorded in the encoder, or goes into new buffers:
-    /// frames that were recorded but not yet submitted keep theirs.
+    /// Moves what moves and dims what dims. A frame in which nothing does needs no call. What has changed since a denoiser's last
+    /// frame follows from the pose that it rendered then: in any order of calls, and for several denoisers. What changes is recorded
+    /// in the encoder, or goes into new buffers: frames that were recorded but not yet submitted keep theirs.
     ///
     /// # Errors
     /// One that names the element of the pose that does not belong to this scene or is not finite; nothing has changed then.
@@ -307,30 +308,24 @@ impl GpuScene {
         if pose.emission.iter().chain(&pose.intensity).flatten().any(|f| !(f.is_finite() && *f >= 0.0)) {
             return wrong("emission or intensity".into(), "is negative or not finite");
         }
-        let before = std::mem::replace(&mut self.pose, pose.clone());
-        // Nodes where there is something to see: a camera that moves changes nothing for what is seen.
-        let placed = self.instances.iter().filter_map(|i| i.node).chain(self.punctual.iter().map(|p| p.node));
-        let moves = placed.into_iter().any(|node| before.world[node] != pose.world[node]);
-        let changed = moves || before.emission != pose.emission || before.intensity != pose.intensity;
-        // One frame more than the movement lasts, so that what has stopped is where it was.
-        if self.traits.instanced && (moves || self.moved) {
-            let (placements, _) = placements(&mut self.header, true, &self.instances, &self.pose, &before);
+        self.pose = pose.clone();
+        let (before, now) = (self.snapshot.clone(), self.visible());
+        if now == before.visible {
+            return Ok(());
+        }
+        if self.traits.instanced && !now.is_placed_as(&before.visible) {
+            let (placements, _) = placements(&mut self.header, true, &self.instances, &self.pose);
             self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
             let first_row = self.header.root / (folded::WIDTH / NODE_TEXELS) as u32;
             folded::replace(device, encoder, &self.buffers.geometry.0, first_row, &placements);
             self.upload_facets(device);
         }
-        self.moved = moves;
-        self.buffers.analytic_lights_previous = self.buffers.analytic_lights.clone();
-        if changed {
-            self.revision += 1;
-            self.place_lights(device);
-            folded::replace(device, encoder, &self.buffers.lights.0, 0, folded::texels(&self.light_table));
-            if before.emission != pose.emission {
-                let materials = materials::materials(&self.materials, &pose.emission, &self.images);
-                folded::replace(device, encoder, &self.buffers.materials.0, 0, folded::texels(&materials));
-            }
+        if !now.emits_as(&before.visible) {
+            let materials = materials::materials(&self.materials, &pose.emission, &self.images);
+            folded::replace(device, encoder, &self.buffers.materials.0, 0, folded::texels(&materials));
         }
+        self.snapshot = self.take_snapshot(device, now);
+        folded::replace(device, encoder, &self.buffers.lights.0, 0, folded::texels(&self.light_table));
         Ok(())
     }
 
@@ -353,14 +348,9 @@ impl GpuScene {
         textures.map(texels).iter().sum::<u64>() + buffers.iter().map(|b| b.size()).sum::<u64>()
     }
 
-    /// Differs between any two scenes of a process, and after any change of the pose.
-    pub(crate) fn version(&self) -> [u64; 2] {
-        [self.id, self.revision]
-    }
-
-    /// Whether something is elsewhere than in the last frame.
-    pub(crate) fn moved(&self) -> bool {
-        self.moved
+    /// The scene as paths see it now.
+    pub(crate) fn snapshot(&self) -> &Arc<Snapshot> {
+        &self.snapshot
     }
 
     /// How rays find their triangles in shaders for these traits, the scene's or more.
@@ -392,8 +382,7 @@ impl GpuScene {
             "texels" => &b.texels,
             "facets" => &b.facets,
             "facet_owners" => &b.facet_owners,
-            "analytic_lights" => &b.analytic_lights,
-            "analytic_lights_previous" => &b.analytic_lights_previous,
+            "analytic_lights" => &self.snapshot.analytic_lights,
             _ => return None,
         };
         Some(buffer.as_entire_binding())
@@ -418,8 +407,21 @@ impl GpuScene {
         self.buffers.facet_owners = uniform("owners of facets", bytemuck::cast_slice(&owners));
     }
 
-    /// Puts the lights where they are in this pose.
-    fn place_lights(&mut self, device: &Device) {
+    /// What paths see of the pose: the nodes where there is something.
+    fn visible(&self) -> Visible {
+        let nodes = self.instances.iter().filter_map(|i| i.node).chain(self.punctual.iter().map(|p| p.node));
+        Visible::new(&self.pose, nodes)
+    }
+
+    /// Puts the lights where they are in this pose, and keeps it for later frames.
+    fn take_snapshot(&mut self, device: &Device, visible: Visible) -> Arc<Snapshot> {
+        let rows = instances::rows_of(&self.instances, &self.pose);
+        let placements = storage(device, "placements", &rows, 3 * size_of::<Texel>());
+        Arc::new(Snapshot { scene: self.id, visible, placements, analytic_lights: self.place_lights(device) })
+    }
+
+    /// Puts the lights where they are in this pose. Returns those of the Blinn–Phong gradient.
+    fn place_lights(&mut self, device: &Device) -> Buffer {
         let mut analytic: Vec<AnalyticLight> =
             self.emitters.iter().map(|e| e.analytic(&self.materials, &self.pose)).collect();
         for (punctual, entry) in self.punctual.iter().zip(&mut self.light_table[self.first_punctual..]) {
@@ -433,24 +435,18 @@ impl GpuScene {
         let count = analytic.len() as u32;
         analytic.resize(analytic.len().max(1), AnalyticLight::default());
         analytic.iter_mut().for_each(|light| light.count = count);
-        self.buffers.analytic_lights = storage(device, "analytic lights", &analytic, size_of::<AnalyticLight>());
+        storage(device, "analytic lights", &analytic, size_of::<AnalyticLight>())
     }
 }
 
-/// The top level and the instances' records with the placements of a pose and the one before, and the top level's depth. Empty
-/// where there is one level. The header gets the grid of the boxes that rays meet first.
-fn placements(
-    header: &mut Header,
-    instanced: bool,
-    instances: &[Instance],
-    pose: &Pose,
-    before: &Pose,
-) -> (Vec<Texel>, u32) {
+/// The top level and the instances' records in a pose, and the top level's depth. Empty where there is one level. The header
+/// gets the grid of the boxes that rays meet first.
+fn placements(header: &mut Header, instanced: bool, instances: &[Instance], pose: &Pose) -> (Vec<Texel>, u32) {
     if !instanced {
         header.set_grid(instances[0].grid);
         return (Vec::new(), 0);
     }
-    let placed = instances::place(instances, pose, before, header.root);
+    let placed = instances::place(instances, pose, header.root);
     header.set_grid(placed.grid);
     (placed.texels, placed.depth)
 }

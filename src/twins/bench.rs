@@ -130,7 +130,8 @@ fn kernel(permutation: Permutation) -> &'static Kernel {
     static KERNELS: OnceLock<Mutex<BTreeMap<Permutation, &'static Kernel>>> = OnceLock::new();
     let mut kernels = KERNELS.get_or_init(Mutex::default).lock().unwrap_or_else(|e| e.into_inner());
     kernels.entry(permutation).or_insert_with(|| {
-        let kernel = Shaders::new().and_then(|mut s| Kernel::new(&gpu().device, &mut s, permutation));
+        let module = Shaders::new().and_then(|mut shaders| shaders.compose(permutation));
+        let kernel = module.and_then(|module| Kernel::new(&gpu().device, module, permutation));
         Box::leak(Box::new(kernel.unwrap_or_else(|e| panic!("{e}"))))
     })
 }

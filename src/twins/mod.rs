@@ -10,7 +10,7 @@ mod codec;
 mod compute;
 #[allow(dead_code, reason = "shared with the integration tests, which use the rest")]
 #[path = "../../tests/common/gpu.rs"]
-mod gpu;
+pub(crate) mod gpu;
 pub(crate) mod layout;
 mod omissions;
 mod permutations;

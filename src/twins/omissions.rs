@@ -20,6 +20,8 @@ const ALL: Traits = Traits {
     environment: true,
     unlit: true,
     few_triangles: false,
+    levels: 8,
+    views: false,
 };
 
 fn plan(traits: &Traits, filter: FilterSettings, changes: Changes) -> Plan {
@@ -72,6 +74,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "instance_numbers",
         "instance_record",
         "object_to_world",
+        "placements_previous",
         "previous_object_to_world",
         "transform_normal",
         "transform_point",

@@ -44,6 +44,7 @@ fn traits() -> Vec<Traits> {
                 environment: bit(7),
                 unlit: bit(8),
                 few_triangles: bit(9),
+                ..Default::default()
             }
         })
         .collect()
@@ -131,9 +132,16 @@ fn plans() -> Vec<(Plan, Mode)> {
             plans.push((plan, mode));
         }
     }
-    for (instanced, filter) in product(&[false, true], &filters(&GRADIENTS)) {
+    // Paths of one frame in one dispatch, two, or more.
+    for (traits, samples) in product(&traits(), &[1, 40, 1000]) {
+        let tracer = TracerSettings { samples, ..Default::default() };
+        let traits = Traits { levels: 12, ..traits };
+        let settings = Settings { tracer, ..Settings::adaptive() };
+        plans.push((Plan::path_traced(&traits, &settings, Changes::ANY, TARGETS[1]), Mode::Denoise));
+    }
+    for ((instanced, views), filter) in product(&product(&[false, true], &[false, true]), &filters(&GRADIENTS)) {
         let settings = Settings { filter, ..Settings::adaptive() };
-        let traits = Traits { instanced, ..Default::default() };
+        let traits = Traits { instanced, views, ..Default::default() };
         for changes in CHANGES {
             let plan = Plan::path_traced(&traits, &settings, changes, TextureFormat::Rgba32Float);
             plans.push((plan.clone().on_cpu(), Mode::Denoise));
@@ -231,7 +239,8 @@ pub(super) fn traversals() -> BTreeMap<Permutation, Step> {
 fn check(device: &Device, scene: &GpuScene, shaders: &mut Shaders, permutation: Permutation, step: &Step) {
     let what = format!("{} with {:?}", permutation.pass.name(), permutation.features);
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
-    let kernel = Kernel::new(device, shaders, permutation).unwrap_or_else(|e| panic!("{e}"));
+    let module = shaders.compose(permutation).unwrap_or_else(|e| panic!("{e}"));
+    let kernel = Kernel::new(device, module, permutation).unwrap_or_else(|e| panic!("{e}"));
     if let Some(error) = pollster::block_on(scope.pop()) {
         panic!("{what}: {error}");
     }
@@ -239,7 +248,8 @@ fn check(device: &Device, scene: &GpuScene, shaders: &mut Shaders, permutation: 
     let named: BTreeSet<&str> = step.bindings.iter().map(|(name, _)| *name).collect();
     assert_eq!(used, named, "{what}: what its shader uses, and what its step names");
     for name in kernel.names(1).chain(kernel.names(0).filter(|n| n.starts_with("analytic"))) {
-        assert!(scene.resource(name).is_some(), "{what}: the scene has no `{name}`");
+        let there = scene.resource(name).is_some() || scene.snapshot().resource(name).is_some();
+        assert!(there, "{what}: the scene has no `{name}`");
     }
 }
 

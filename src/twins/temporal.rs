@@ -39,6 +39,8 @@ pub(super) struct Blended {
     pub(super) variance: f64,
     pub(super) length: f64,
     pub(super) lambda: f64,
+    /// Weight of the sample.
+    alpha: f64,
     /// A threshold was so near that rounding may decide otherwise.
     unsure: bool,
     /// The largest numbers that went in: errors are relative to these.
@@ -61,7 +63,12 @@ struct Before {
     variance: f64,
     length: f64,
     weight: f64,
+    /// Weight of all taps on the surface, whatever they have seen.
+    surface: f64,
 }
+
+/// What stands for a radiance where there is none.
+const NO_SAMPLE: Texel = [0, 1 << 22, 0, 0];
 
 fn pack_guide(g: &[u32; 2]) -> Texel {
     [g[0], g[1], 0, 0]
@@ -90,11 +97,12 @@ impl Given {
             let [a, b] = pack_rgb(radiance(r));
             [a, b, 0, 0]
         };
-        let radiance_now = each(&mut |r| color(r));
+        let gaps = features.has(Feature::MissingSamples);
+        let radiance_now = each(&mut |r| if gaps && r.below(6) == 0 { NO_SAMPLE } else { color(r) });
         let feedback = each(&mut |r| color(r));
         let history = (0..count)
             .map(|_| {
-                let length = 1.0 + 20.0 * random.unit().powi(2);
+                let length = if gaps && random.below(4) == 0 { 0.0 } else { 1.0 + 20.0 * random.unit().powi(2) };
                 let color = if features.has(Feature::Feedback) { [random.unit(); 3] } else { radiance(&mut random) };
                 // What the texture holds of it.
                 unpack_history(pack_history(Kept { color, variance: random.unit().powi(4), length }))
@@ -198,7 +206,11 @@ impl Given {
         if tests.iter().any(|&t| t < 0.0) {
             return;
         }
+        sum.surface += w;
         let h = self.history[q];
+        if h.length == 0.0 {
+            return;
+        }
         let (color, mean) = self.stored(q);
         notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(h.variance.sqrt());
         sum.color = add(sum.color, scale(color, w));
@@ -224,6 +236,9 @@ impl Given {
         if self.has(Feature::Still) {
             let (color, mean) = self.stored(i);
             let Kept { variance, length, .. } = self.history[i];
+            if length == 0.0 {
+                return None;
+            }
             notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(variance.sqrt());
             return Some(Before { color, mean, variance, length, ..Default::default() });
         }
@@ -243,8 +258,8 @@ impl Given {
             let w = along(dx, f[0]) * along(dy, f[1]);
             self.add_tap(&mut sum, i, origin, [base[0] + dx, base[1] + dy], w, notes);
         }
-        notes.unsure |= (sum.weight - 0.01).abs() < 1e-4;
-        if sum.weight <= 0.01 {
+        notes.unsure |= [sum.weight, sum.surface].iter().any(|w| (w - 0.01).abs() < 1e-4);
+        if sum.surface <= 0.01 {
             sum = Before::default();
             for (dx, dy) in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| (dx, dy))) {
                 let tap = [base[0] + dx, base[1] + dy];
@@ -309,7 +324,9 @@ impl Given {
         let f = &self.bench.settings.filter;
         let sample = unpack_rgb([self.radiance[i][0], self.radiance[i][1]]);
         let l = luminance(sample);
-        let mut out = Blended { color: sample, mean: l, length: 1.0, ..Default::default() };
+        let sampled = self.radiance[i] != NO_SAMPLE;
+        let length = if sampled { 1.0 } else { 0.0 };
+        let mut out = Blended { color: sample, mean: l, length, alpha: 1.0, ..Default::default() };
         let mut notes = Notes { largest: sample.into_iter().fold(l, f64::max), ..Default::default() };
         let before = self.bench.continued.then(|| self.before(i, x, y, &mut notes)).flatten();
         (out.unsure, out.largest) = (notes.unsure, notes.largest);
@@ -336,19 +353,30 @@ impl Given {
             kept *= (1.0 - out.lambda).powf(f.history_power.into());
         }
         let least = f64::from(f.alpha);
+        out.length = (kept + 1.0).min(f.max_history.into());
         let mut alpha = if self.has(Feature::BlendByLambda) {
             let base = least.max(1.0 / (before.length + 1.0));
             ((1.0 - out.lambda) * base + out.lambda).max(1.0 / (kept + 1.0))
         } else {
-            least.max(1.0 / (kept + 1.0))
+            least.max(1.0 / out.length)
         };
-        out.length = (kept + 1.0).min(f.max_history.into());
+        if alpha > 1.0 / out.length {
+            // What the weighted mean is worth: 1/Σw² of weights that add up to 1.
+            let worth = 1.0 / ((1.0 - alpha).powi(2) / kept.max(1e-9) + alpha.powi(2));
+            out.length = worth.min(f.max_history.into());
+        }
         let stratum = self.bench.stratum(x / 3, y / 3).unwrap();
         if self.has(Feature::InPlace) && self.samples[stratum][0] as i32 == y % 3 * 3 + x % 3 + 1 {
             // What repeats a path is not new: it only fills in for what λ drops.
             alpha = out.lambda;
             out.length = kept.max(1.0);
         }
+        if !sampled {
+            alpha = 0.0;
+            out.unsure |= (kept - 1.0).abs() < 1e-3;
+            out.length = if kept >= 1.0 { kept } else { 0.0 };
+        }
+        out.alpha = alpha;
         let deviation = l - before.mean;
         out.color = add(scale(before.color, 1.0 - alpha), scale(sample, alpha));
         out.mean = before.mean + alpha * deviation;
@@ -385,14 +413,23 @@ fn check(features: &[Feature], settings: &Settings) {
             let i = given.bench.at(x, y).unwrap();
             let history = written["history_out"][i];
             let what = || format!("{size:?} ({x}, {y}), moving {moving}, continued {continued}, {:?}", given.features);
+            let weights = written.get("weights_out").map(|w| [w[i][0], w[i][1]].map(float));
             if depth(given.guide[i]) == 0.0 {
                 assert_eq!(history, [0; 4], "{}: a miss", what());
+                assert_eq!(weights.unwrap_or_default(), [0.0; 2], "{}: a miss", what());
                 continue;
             }
             let expected = given.twin(x, y);
             compared += 1;
             if expected.unsure {
                 unsure += 1;
+                continue;
+            }
+            for (found, expected) in weights.into_iter().flatten().zip([expected.alpha, expected.lambda]) {
+                assert_close(found, expected, 2e-3, || format!("{}: α, λ", what()));
+            }
+            if expected.length == 0.0 {
+                assert_eq!(history, [0; 4], "{}: neither a sample nor a history", what());
                 continue;
             }
             followed += usize::from(expected.length > 1.0);
@@ -466,7 +503,15 @@ fn every_reachable_kind_of_blending() {
     check(&[Gradient, InPlace, HistoryRatio], &power(3.5));
     check(&[Gradient, InPlace, BlendByLambda, Feedback], &power(2.0));
     check(&[Gradient, InPlace, HistoryRatio, BlendByLambda, Feedback, Objects], &power(0.0));
+    // For views.
+    check(&[Gradient, InPlace, AcrossSurfaces, HistoryRatio, KeepWeights], &power(3.5));
+    check(&[Gradient, InPlace, BlendByLambda, Feedback, KeepWeights], &power(2.0));
+    check(&[Still, BlendByLambda, Feedback, KeepWeights], &power(2.0));
     // A host's.
+    check(&[MissingSamples, Objects], &power(3.5));
+    check(&[MissingSamples, Still, Feedback], &power(3.5));
+    check(&[MissingSamples, Gradient, InPlace, HistoryRatio, KeepWeights], &power(3.5));
+    check(&[MissingSamples, ExternalLambda, BlendByLambda, KeepWeights], &power(2.0));
     check(&[ExternalLambda], &power(3.5));
     check(&[ExternalLambda, Confidence, BlendByLambda, Objects], &power(2.0));
     let mut signed = power(3.5);

@@ -3,7 +3,7 @@
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
-    Kept, assert_close, depth, luminance, pack_history, pack_rgb, radiance, unpack_history, unpack_normal, unpack_rgb,
+    Kept, UNKNOWN_TAP, assert_close, depth, luminance, pack_history, pack_rgb, radiance, unpack_history, unpack_normal, unpack_rgb,
     unpack_tap,
 };
 use super::plane::{dot, sub};
@@ -17,25 +17,66 @@ fn kept(texel: Texel) -> Kept {
     unpack_history([texel[0], texel[1]])
 }
 
+/// A pixel with a history `offset` away on a pixel's surface, and its weight.
+fn neighbour(
+    bench: &Bench,
+    guide: &[[u32; 2]],
+    history: &[Texel],
+    [x, y]: [i32; 2],
+    [dx, dy]: [i32; 2],
+) -> Option<(usize, f64)> {
+    let i = bench.at(x, y).unwrap();
+    let (normal, z) = (unpack_normal(guide[i][0]), depth(guide[i]));
+    let there = |&q: &usize| depth(guide[q]) > 0.0 && kept(history[q]).length > 0.0;
+    let q = bench.at(x + dx, y + dy).filter(there)?;
+    let offset = sub(bench.position(x + dx, y + dy, depth(guide[q])), bench.position(x, y, z));
+    let exponent = dot(normal, offset).abs() / (0.02 * z) + 64.0 * (1.0 - dot(normal, unpack_normal(guide[q][0])));
+    Some((q, falloff(exponent)))
+}
+
+/// The least of the deviations that triples of neighbours show along four directions, from the 3×3 around a pixel; and the
+/// greatest square of a difference.
+fn bends(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
+    let mut squares = 0.0;
+    let variances = [[1, 0], [0, 1], [1, 1], [1, -1]].map(|[sx, sy]: [i32; 2]| {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))) {
+            let triple = [-1, 0, 1].map(|k| neighbour(bench, guide, history, [x, y], [dx + k * sx, dy + k * sy]));
+            let [Some(a), Some(b), Some(c)] = triple else { continue };
+            let [l, m, r] = [a, b, c].map(|(q, _)| luminance(kept(history[q]).color));
+            let weight = a.1 * b.1 * c.1;
+            sum += weight * (m - 0.5 * (l + r)).powi(2) / 1.5;
+            weights += weight;
+            squares = f64::max(squares, (l * l).max(m * m).max(r * r));
+        }
+        if weights > 1e-3 { sum / weights } else { f64::INFINITY }
+    });
+    let least = variances.into_iter().fold(f64::INFINITY, f64::min);
+    (if least.is_finite() { least.sqrt() } else { 0.0 }, squares)
+}
+
 /// The standard deviation that steers the luminance stop, and the scale of the numbers that it is a difference of.
 fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
     let i = bench.at(x, y).unwrap();
-    let (normal, z, n) = (unpack_normal(guide[i][0]), depth(guide[i]), kept(history[i]).length);
+    let n = kept(history[i]).length;
     let of_mean = features.has(Feature::VarianceOfMean);
     let own = kept(history[i]).variance;
+    let silent = n > 1.0 && own <= 1e-4 * luminance(kept(history[i]).color).powi(2);
+    if features.has(Feature::RepeatedNoise) && silent {
+        let steady = twin(bench, features.without(Feature::RepeatedNoise), guide, history, x, y);
+        let (floor, squares) = bends(bench, guide, history, x, y);
+        return (steady.0.max(floor), steady.1.max(squares));
+    }
     if n >= 4.0 {
         // With Bessel's correction while n is below 8.
         let bessel = if n < 8.0 { n / (n - 1.0) } else { 1.0 };
         return (if of_mean { own * bessel / n } else { own }.sqrt(), 0.0);
     }
-    let position = bench.position(x, y, z);
     let (mut first, mut second, mut weights) = (0.0, 0.0, 0.0);
     let mut squares = 0.0;
     for (dx, dy) in (-3..=3).flat_map(|dy| (-3..=3).map(move |dx| (dx, dy))) {
-        let Some(q) = bench.at(x + dx, y + dy).filter(|&q| depth(guide[q]) > 0.0) else { continue };
-        let distance = dot(normal, sub(bench.position(x + dx, y + dy, depth(guide[q])), position)).abs();
-        let exponent = distance / (0.02 * z) + 64.0 * (1.0 - dot(normal, unpack_normal(guide[q][0])));
-        let (w, mean) = (falloff(exponent), luminance(kept(history[q]).color));
+        let Some((q, w)) = neighbour(bench, guide, history, [x, y], [dx, dy]) else { continue };
+        let mean = luminance(kept(history[q]).color);
         let second_moment = kept(history[q]).variance + mean * mean;
         first += w * mean;
         second += w * second_moment;
@@ -55,7 +96,14 @@ fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel]
 #[test]
 fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_variance() {
     use Feature::*;
-    let sets: [&[Feature]; 4] = [&[], &[VarianceOfMean], &[Feedback], &[VarianceOfMean, Feedback]];
+    let sets: [&[Feature]; 6] = [
+        &[],
+        &[VarianceOfMean],
+        &[Feedback],
+        &[VarianceOfMean, Feedback],
+        &[VarianceOfMean, MissingSamples, RepeatedNoise],
+        &[MissingSamples, RepeatedNoise, Feedback],
+    ];
     // With fireflies (10⁵) and without: beside one, nothing else counts.
     for ((features, size), brightest) in
         sets.into_iter().flat_map(|f| SIZES.map(|s| (f, s))).flat_map(|c| [(c, 1.0), (c, 1e9)])
@@ -68,11 +116,17 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
             if depth(*g) == 0.0 {
                 return [0; 4];
             }
+            if step.features.has(MissingSamples) && random.below(5) == 0 {
+                return [0; 4];
+            }
             let length = [1.0, 1.5, 2.0, 3.0, 3.75, 4.0, 6.0, 20.0][random.below(8)];
+            // The same radiance in every frame.
+            let still = step.features.has(RepeatedNoise) && random.below(2) == 0;
             let color = radiance(random).map(|c| c.min(brightest));
             // Fed by the spatial filter, the history has the mean luminance in the colour's place.
             let color = if step.features.has(Feedback) { [luminance(color); 3] } else { color };
-            let [a, b] = pack_history(Kept { color, variance: random.unit() * luminance(color).powi(2), length });
+            let variance = if still { 0.0 } else { random.unit() * luminance(color).powi(2) };
+            let [a, b] = pack_history(Kept { color, variance, length });
             [a, b, 0, 0]
         };
         let history: Vec<Texel> = guide.iter().map(|g| texel(g, &mut random)).collect();
@@ -93,7 +147,8 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
             let i = bench.at(x, y).unwrap();
             let (out, what) = (written["color_out"][i], || format!("{size:?} ({x}, {y}), {features:?}"));
             if kept(history[i]).length == 0.0 {
-                assert_eq!(out, [0; 4], "{}: a miss", what());
+                let expected = if depth(guide[i]) == 0.0 { [0; 4] } else { UNKNOWN_TAP };
+                assert_eq!(out, expected, "{}: a miss, or without a sample", what());
                 continue;
             }
             let fed = unpack_rgb([feedback[i][0], feedback[i][1]]);

@@ -1,6 +1,6 @@
 //! Sequences through the filter.
 
-use crate::export;
+use crate::export::{self, Export};
 use crate::film::Film;
 use crate::folder::{Folder, add, wall};
 use crate::gpu::Gpu;
@@ -27,7 +27,7 @@ fn denoised(sequence: &Sequence, settings: Settings) -> Vec<Vec<[f32; 3]>> {
         frames.push(film.numbers(View::Denoised)?);
         Ok(())
     });
-    assert!(times.unwrap().iter().all(|passes| !passes.is_empty()));
+    assert!(times.unwrap().times.iter().all(|passes| !passes.is_empty()));
     frames
 }
 
@@ -38,7 +38,7 @@ fn the_path_tracers_frames_give_the_image_that_it_made_of_them() {
     let scene = builtin::scene("cornell", "all").unwrap();
     let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
     let mut film = Film::new(&gpu, SIZE, Settings::adaptive()).unwrap();
-    let (mut expected, mut cameras) = (Vec::new(), Vec::new());
+    let (mut expected, mut cameras, mut frames) = (Vec::new(), Vec::new(), Export::default());
     // The lamp comes back on in frame 60.
     for frame in 56..62 {
         let pose = scene.pose(Some(0), frame as f32 / 30.0);
@@ -49,7 +49,7 @@ fn the_path_tracers_frames_give_the_image_that_it_made_of_them() {
         let camera = Camera { eye: seen.eye, target: seen.target, up: seen.up, fov_y: seen.fov_y, jitter: [0.2, -0.3] };
         tracing::render(&mut film, &uploaded, camera, frame).unwrap();
         expected.push(film.numbers(View::Denoised).unwrap());
-        export::write_frame(&folder.0.join(format!("frame_{frame:04}.exr")), &mut film).unwrap();
+        frames.write(&folder.0.join(format!("frame_{frame:04}.exr")), &mut film).unwrap();
         cameras.push(camera);
     }
     export::write_manifest(&folder.0, SIZE, &cameras).unwrap();

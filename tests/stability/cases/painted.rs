@@ -75,7 +75,7 @@ pub struct Painted {
 
 impl Painted {
     pub fn new(size: [u32; 2], settings: Settings) -> Self {
-        let descriptor = DenoiserDescriptor { size, settings, diagnostics: true, ..Default::default() };
+        let descriptor = DenoiserDescriptor { size, settings, diagnostics: true, views: true, ..Default::default() };
         Self {
             denoiser: Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap(),
             index: 0,

@@ -1,0 +1,86 @@
+//! How many dispatches trace a frame's paths.
+//!
+//! A dispatch that takes seconds is ended as hung by most systems, and what it had traced is lost; lavapipe of Mesa 22.3 ends all loops
+//! of an invocation after 65 535 rounds in total, and the picture goes dark without a word. So a dispatch traces no more paths than
+//! can be expected to stay well below that.
+
+use super::Traits;
+use crate::settings::TracerSettings;
+
+/// Rounds of all loops that a pixel's paths may be expected to take in one dispatch: an eighth of what lavapipe allows, as some pixels'
+/// paths take several times as long as others'.
+const MOST_ROUNDS: u32 = 8192;
+
+/// Rounds that a ray takes for each level of the trees. Measured, see docs/performance.md.
+const ROUNDS_PER_LEVEL: u32 = 4;
+
+/// Bounces that Russian roulette leaves to few: it ends at least 1 path in 20 at each.
+const ROULETTE_REACH: u32 = 20;
+
+/// A frame's paths, divided among dispatches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Batches {
+    samples: u32,
+    /// Paths per pixel of each dispatch; the last may have fewer.
+    each: u32,
+}
+
+impl Batches {
+    /// As few as are safe.
+    pub fn of(traits: &Traits, tracer: &TracerSettings) -> Self {
+        let rounds_per_ray = if traits.few_triangles { 1 } else { 1 + ROUNDS_PER_LEVEL * traits.levels };
+        // One towards a light and one onwards from each surface.
+        let surfaces = 1 + tracer.bounces.min(tracer.roulette.saturating_add(ROULETTE_REACH));
+        let rounds = surfaces.saturating_mul(2).saturating_mul(rounds_per_ray);
+        let most = (MOST_ROUNDS / rounds.max(1)).max(1);
+        let dispatches = tracer.samples.div_ceil(most).max(1);
+        Self { samples: tracer.samples, each: tracer.samples.div_ceil(dispatches).max(1) }
+    }
+
+    /// How many dispatches there are.
+    pub fn count(self) -> u32 {
+        self.samples.div_ceil(self.each).max(1)
+    }
+
+    /// Of each dispatch, how many paths it traces and the number of the first.
+    pub fn all(self) -> Vec<[u32; 2]> {
+        let firsts = (0..self.count()).map(|dispatch| dispatch * self.each);
+        firsts.map(|first| [self.each.min(self.samples - first), first]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn batches(samples: u32, bounces: u32, levels: u32) -> Batches {
+        let tracer = TracerSettings { samples, bounces, ..Default::default() };
+        Batches::of(&Traits { levels, ..Default::default() }, &tracer)
+    }
+
+    #[test]
+    fn every_path_is_in_one_batch() {
+        for samples in [1, 2, 7, 64, 100, 1023, 65_536] {
+            for (bounces, levels) in [(0, 0), (3, 16), (1024, 64)] {
+                let batches = batches(samples, bounces, levels);
+                let mut next = 0;
+                for [count, first] in batches.all() {
+                    assert_eq!(first, next, "{samples} {bounces} {levels}");
+                    assert!(count > 0);
+                    next += count;
+                }
+                assert_eq!(next, samples, "{bounces} {levels}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_dispatch_takes_fewer_paths_the_longer_they_are() {
+        assert_eq!(batches(1, 1024, 64).count(), 1, "a path is not divided");
+        assert_eq!(batches(16, 3, 20).count(), 2);
+        assert!(batches(1024, 3, 12).count() < batches(1024, 3, 28).count());
+        assert!(batches(1024, 0, 12).count() < batches(1024, 8, 12).count());
+        // Roulette ends paths long before so many bounces.
+        assert_eq!(batches(1024, 100, 12), batches(1024, 1024, 12));
+    }
+}
