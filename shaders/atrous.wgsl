@@ -7,9 +7,6 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb, pack_tap, tap_color, tap_variance}
-#ifdef MISSING_SAMPLES
-#import asvgf::packing::{UNKNOWN_TAP, is_known}
-#endif
 #import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance, foreshortening}
 
 @group(0) @binding(1) var<uniform> stride: i32;
@@ -67,15 +64,11 @@ fn tap_at(pixel: vec2<i32>) -> Tap {
 #endif
 }
 
-// A tap; its depth is 0, so that there is no surface, outside the image, and where nothing is known of its radiance.
+// A tap; its depth is 0, so that there is no surface, outside the image.
 fn load(pixel: vec2<i32>, offset: vec2<i32>) -> Tap {
     let place = pixel + offset * stride;
     var tap = tap_at(place);
-#ifdef MISSING_SAMPLES
-    tap.depth = select(0.0, tap.depth, inside(place) & is_known(tap.color));
-#else
     tap.depth = select(0.0, tap.depth, inside(place));
-#endif
     return tap;
 }
 
@@ -171,7 +164,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifndef STORAGE_READS
     // Tiles of sky, and of what has converged, are spared their taps. (A CPU executes both sides of a branch.)
     if converged || depth <= 0.0 {
-        store(pixel, own_color, own.color, depth > 0.0);
+        store(pixel, own_color, sqrt(own_variance), depth > 0.0);
         return;
     }
 #endif
@@ -211,12 +204,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     sums.color = own_color;
     sums.weight = 1.0;
     sums.variance = own_variance;
-#ifdef MISSING_SAMPLES
-    // Of no weight itself, a pixel of which nothing is known is filled from around.
-    let known = is_known(own.color);
-    sums.weight = select(0.0, 1.0, known);
-    sums.variance = select(0.0, own_variance, known);
-#endif
     // The B₃ spline (1, ⅔, ⅙)², relative to its centre.
     add_tap(&sums, c, west, vec2(-1, 0), 2.0 / 3.0, slant.x);
     add_tap(&sums, c, east, vec2(1, 0), 2.0 / 3.0, slant.x);
@@ -245,27 +232,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     add_far_tap(&sums, c, pixel, vec2(-2, 2), 1.0 / 36.0, slant.w);
     add_far_tap(&sums, c, pixel, vec2(2, 2), 1.0 / 36.0, slant.z);
 #endif
-#ifdef MISSING_SAMPLES
-    let found = sums.weight > 1e-6;
-    sums.weight = max(sums.weight, 1e-6);
-#endif
 #ifdef LOCAL_LINEAR_FIT
     let filtered = fit(sums);
 #else
     let filtered = sums.color / sums.weight;
 #endif
     let deviation = sqrt(sums.variance) / sums.weight;
-    let color_left = select(filtered, own_color, converged);
-    var tap = pack_tap(color_left, select(deviation, sqrt(own_variance), converged));
-#ifdef MISSING_SAMPLES
-    tap = select(UNKNOWN_TAP, tap, found);
-#endif
-    store(pixel, color_left, tap, depth > 0.0);
+    store(pixel, select(filtered, own_color, converged), select(deviation, sqrt(own_variance), converged), depth > 0.0);
 }
 
 // A miss is carried on as it is: it filters nothing, and what comes of it is not kept.
-fn store(pixel: vec2<i32>, color: vec3<f32>, tap: vec2<u32>, seen: bool) {
-    textureStore(color_out, pixel, vec4(select(vec2(0u), tap, seen), 0u, 0u));
+fn store(pixel: vec2<i32>, color: vec3<f32>, deviation: f32, seen: bool) {
+    textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(color, deviation), seen), 0u, 0u));
 #ifdef FEEDBACK
     textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(color), seen), 0u, 0u));
 #endif

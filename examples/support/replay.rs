@@ -29,7 +29,7 @@ pub fn denoise(
         let cameras = [frame, frame.saturating_sub(1).max(sequence.first)].map(|frame| sequence.camera(frame));
         let pixels = sequence.read(frame)?;
         let views = Views::new(film.gpu, sequence.size, &pixels, cameras);
-        if last.is_some_and(|last| repeats_noise(&last, &pixels, cameras)) {
+        if last.is_some_and(|last| repeats_noise(&last, &pixels, sequence.size[0], cameras)) {
             denoised.repeated.get_or_insert(frame);
         }
         // Such frames are one sample, however many there are: an average of them is no better, and looks as if it were.
@@ -49,24 +49,37 @@ const REPEATED: f32 = 0.5;
 /// Fewest pixels at rest that tell anything.
 const FEWEST: usize = 64;
 
+/// Difference of a pixel to the mean of its neighbours, over that mean, from which on it is noise.
+const NOISY: f32 = 0.05;
+
 /// Whether a frame has the random numbers of the last one, as those of renderers with a fixed seed have: then what is at rest shows
-/// the same radiance to the last bit.
-fn repeats_noise(last: &Pixels, now: &Pixels, [camera, before]: [Camera; 2]) -> bool {
+/// the same noise to the last bit.
+fn repeats_noise(last: &Pixels, now: &Pixels, width: u32, [camera, before]: [Camera; 2]) -> bool {
     let radiance = |pixels| Pixels::get(pixels, Layer::Color).unwrap_or_default();
+    let (was, is) = (radiance(last), radiance(now));
     let depth = now.get(Layer::Depth).unwrap_or_default();
     let motion = now.get(Layer::Motion);
     let rests = |i: usize| match motion {
         Some(motion) => motion[2 * i].abs().max(motion[2 * i + 1].abs()) < 1e-3,
         None => camera == before,
     };
-    let (mut counted, mut same) = (0, 0);
-    for (i, (a, b)) in radiance(last).chunks_exact(3).zip(radiance(now).chunks_exact(3)).enumerate() {
+    let brightness = |i: usize| is[3 * i..3 * i + 3].iter().sum::<f32>();
+    // Between two neighbours in a row; an image without noise may well stay what it is.
+    let is_noisy = |i: usize| {
+        let inside = i as u32 % width > 0 && (i as u32 + 1) % width > 0;
+        let around = if inside { 0.5 * (brightness(i - 1) + brightness(i + 1)) } else { brightness(i) };
+        (brightness(i) - around).abs() > NOISY * around
+    };
+    let (mut counted, mut same, mut noisy) = (0, 0, 0);
+    for (i, (a, b)) in was.chunks_exact(3).zip(is.chunks_exact(3)).enumerate() {
         if depth[i] > 0.0 && rests(i) && b.iter().any(|x| *x != 0.0) {
             counted += 1;
             same += usize::from(a == b);
+            noisy += usize::from(is_noisy(i));
         }
     }
-    counted >= FEWEST && same as f32 > REPEATED * counted as f32
+    let most = REPEATED * counted as f32;
+    counted >= FEWEST && same as f32 > most && noisy as f32 > most
 }
 
 /// A frame's layers on the GPU.

@@ -51,14 +51,6 @@ fn pack_tap(color: vec3<f32>, deviation: f32) -> vec2<u32> {
     );
 }
 
-// Where neither a sample nor a history tells anything: black, with a deviation that is greater than any that is packed, so that
-// nothing stops what is around from filling it.
-const UNKNOWN_TAP: vec2<u32> = vec2(0u, 0xffff0000u);
-
-fn is_known(tap: vec2<u32>) -> bool {
-    return tap.y < UNKNOWN_TAP.y;
-}
-
 fn tap_color(tap: vec2<u32>) -> vec3<f32> {
     return vec3(unpack_unsigned(tap.x & 0xffffu), unpack_unsigned(tap.x >> 16u), unpack_unsigned(tap.y & 0xffffu));
 }

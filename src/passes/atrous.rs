@@ -3,8 +3,7 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] =
-    &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit, Feature::MissingSamples];
+const FEATURES: &[Feature] = &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit];
 
 /// Only the first iteration smooths the variance and feeds the history.
 const FIRST: &[Feature] = &[Feature::FirstIteration, Feature::Feedback];

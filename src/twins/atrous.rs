@@ -1,7 +1,7 @@
 //! One spatial iteration: l̂(p) = Σ h·w·l(q) / Σ h·w.
 
 use super::bench::{Bench, SIZES, Texel};
-use super::codec::{UNKNOWN_TAP, assert_close, depth, luminance, pack_tap, radiance, unpack_normal, unpack_rgb, unpack_tap};
+use super::codec::{assert_close, depth, luminance, pack_tap, radiance, unpack_normal, unpack_rgb, unpack_tap};
 use super::plane::{V, add, dot, scale, sub};
 use super::random::Random;
 use super::strata::falloff;
@@ -19,14 +19,13 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
     let (normal, z) = (unpack_normal(guide(here)[0]), depth(guide(here)));
     let (own, deviation) = unpack_tap(image[here]);
     let position = bench.position(x, y, z);
-    let known = |i: usize| image[i][1] < UNKNOWN_TAP[1];
-    let existing = |x: i32, y: i32| bench.at(x, y).filter(|&i| depth(guide(i)) > 0.0 && known(i));
+    let existing = |x: i32, y: i32| bench.at(x, y).filter(|&i| depth(guide(i)) > 0.0);
     let mut variance = deviation * deviation;
     if features.has(Feature::FirstIteration) {
         // (1 2 1)² over the neighbours that exist.
         let (mut sum, mut weights) = (0.0, 0.0);
         for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))) {
-            if let Some(i) = existing(x + dx, y + dy).or((dx == 0 && dy == 0).then_some(here)) {
+            if let Some(i) = existing(x + dx, y + dy) {
                 let w = f64::from((2 - dx.abs()) * (2 - dy.abs()));
                 sum += w * unpack_tap(image[i]).1.powi(2);
                 weights += w;
@@ -38,8 +37,7 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
         return (own, deviation, own);
     }
     let spline = |d: i32| [1.0, 2.0 / 3.0, 1.0 / 6.0][d.unsigned_abs() as usize];
-    let center = if known(here) { 1.0 } else { 0.0 };
-    let mut taps: Vec<Tap> = vec![(center, [0.0; 2], own, deviation * deviation * center)];
+    let mut taps: Vec<Tap> = vec![(1.0, [0.0; 2], own, deviation * deviation)];
     for (dx, dy) in (-2..=2).flat_map(|dy: i32| (-2..=2).map(move |dx: i32| (dx, dy))) {
         let diamond = dx.abs() + dy.abs() <= 2;
         if (dx, dy) == (0, 0) || !(diamond || features.has(Feature::FullKernel)) {
@@ -75,9 +73,6 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
         taps.push((spline(dx) * spline(dy) * stop, [dx, dy].map(f64::from), color, other));
     }
     let weight: f64 = taps.iter().map(|t| t.0).sum();
-    if weight <= 1e-6 {
-        return ([0.0; 3], f64::INFINITY, [0.0; 3]);
-    }
     let mean = scale(taps.iter().fold([0.0; 3], |s, t| add(s, scale(t.2, t.0))), 1.0 / weight);
     let spread = taps.iter().map(|t| t.0 * t.0 * t.3).sum::<f64>().sqrt() / weight;
     let color = if features.has(Feature::LocalLinearFit) { fit(&taps, weight, mean, f.ridge.into()) } else { mean };
@@ -125,10 +120,6 @@ fn check(settings: &Settings, features: &[Feature], iteration: u32) {
             .into_iter()
             .map(|g| match g {
                 [_, 0] => [0; 4],
-                // Nothing is known.
-                g if features.contains(&Feature::MissingSamples) && random.below(3) > 0 => {
-                    [UNKNOWN_TAP[0], UNKNOWN_TAP[1], g[0], g[1]]
-                }
                 // Deviations from none to far beyond the colour.
                 _ => {
                     let [a, b] = pack_tap(radiance(&mut random), random.unit().powi(4) * 3.0);
@@ -148,10 +139,6 @@ fn check(settings: &Settings, features: &[Feature], iteration: u32) {
                 continue;
             }
             let (color, deviation, mean) = twin(&bench, step.features, iteration, &image, x, y);
-            if deviation.is_infinite() {
-                assert_eq!(out, UNKNOWN_TAP, "{}: nothing is known around either", what());
-                continue;
-            }
             let (found, spread) = unpack_tap(out);
             for channel in 0..3 {
                 // Stored to 2⁻¹²; exponents of up to some ten, of which distances are differences of numbers a hundred times
@@ -179,15 +166,6 @@ fn the_default_stops() {
         for iteration in [0, 1, 3] {
             check(&Settings::adaptive(), features, iteration);
         }
-    }
-}
-
-#[test]
-fn what_is_not_known_is_filled_from_around() {
-    use Feature::*;
-    for iteration in [0, 1, 3] {
-        check(&Settings::adaptive(), &[LocalLinearFit, MissingSamples], iteration);
-        check(&Settings::classic(), &[ClassicStops, FullKernel, Feedback, MissingSamples], iteration);
     }
 }
 

@@ -40,9 +40,6 @@ pub(super) fn unpack_unsigned(bits: u32) -> f64 {
     }
 }
 
-/// A tap of which nothing is known: black, with a deviation beyond any.
-pub(super) const UNKNOWN_TAP: Texel = [0, 0xffff_0000, 0, 0];
-
 /// What a pixel keeps from frame to frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Kept {

@@ -3,10 +3,10 @@
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
-    Kept, UNKNOWN_TAP, assert_close, depth, luminance, pack_history, pack_rgb, radiance, unpack_history, unpack_normal, unpack_rgb,
+    Kept, assert_close, depth, luminance, pack_history, pack_rgb, radiance, unpack_history, unpack_normal, unpack_rgb,
     unpack_tap,
 };
-use super::plane::{dot, sub};
+use super::plane::{V, add, dot, scale, sub};
 use super::random::Random;
 use super::strata::falloff;
 use crate::Settings;
@@ -34,6 +34,38 @@ fn neighbour(
     Some((q, falloff(exponent)))
 }
 
+/// What fills a pixel without a history: the mean over neighbours of its surface, its deviation, and the greatest square of a
+/// luminance.
+fn fill(
+    bench: &Bench,
+    guide: &[[u32; 2]],
+    history: &[Texel],
+    color: &dyn Fn(usize) -> V,
+    x: i32,
+    y: i32,
+) -> (V, f64, f64) {
+    let (mut sum, mut square, mut weights, mut squares) = ([0.0; 3], 0.0, 0.0, 0.0);
+    for spacing in [1, 3, 9] {
+        if weights >= 6.0 {
+            break;
+        }
+        for (dx, dy) in (-3..=3).flat_map(|dy| (-3..=3).map(move |dx| (spacing * dx, spacing * dy))) {
+            let Some((q, w)) = neighbour(bench, guide, history, [x, y], [dx, dy]) else { continue };
+            let l = luminance(color(q));
+            sum = add(sum, scale(color(q), w));
+            square += w * l * l;
+            squares = f64::max(squares, l * l);
+            weights += w;
+        }
+    }
+    if weights <= 1e-3 {
+        return ([0.0; 3], 0.0, squares);
+    }
+    let mean = scale(sum, 1.0 / weights);
+    let variance = 4.0 * (square / weights - luminance(mean).powi(2)).max(0.0) / weights.max(1.0);
+    (mean, variance.sqrt(), squares)
+}
+
 /// The least of the deviations that triples of neighbours show along four directions, from the 3×3 around a pixel; and the
 /// greatest square of a difference.
 fn bends(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
@@ -52,7 +84,7 @@ fn bends(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -
         if weights > 1e-3 { sum / weights } else { f64::INFINITY }
     });
     let least = variances.into_iter().fold(f64::INFINITY, f64::min);
-    (if least.is_finite() { least.sqrt() } else { 0.0 }, squares)
+    (if least.is_finite() { (4.0 / 0.6 * least).sqrt() } else { 0.0 }, squares)
 }
 
 /// The standard deviation that steers the luminance stop, and the scale of the numbers that it is a difference of.
@@ -61,7 +93,8 @@ fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel]
     let n = kept(history[i]).length;
     let of_mean = features.has(Feature::VarianceOfMean);
     let own = kept(history[i]).variance;
-    let silent = n > 1.0 && own <= 1e-4 * luminance(kept(history[i]).color).powi(2);
+    let center = luminance(kept(history[i]).color);
+    let silent = n >= 2.0 && center > 0.0 && own <= 1e-6 * center.powi(2);
     if features.has(Feature::RepeatedNoise) && silent {
         let steady = twin(bench, features.without(Feature::RepeatedNoise), guide, history, x, y);
         let (floor, squares) = bends(bench, guide, history, x, y);
@@ -147,8 +180,23 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
             let i = bench.at(x, y).unwrap();
             let (out, what) = (written["color_out"][i], || format!("{size:?} ({x}, {y}), {features:?}"));
             if kept(history[i]).length == 0.0 {
-                let expected = if depth(guide[i]) == 0.0 { [0; 4] } else { UNKNOWN_TAP };
-                assert_eq!(out, expected, "{}: a miss, or without a sample", what());
+                if depth(guide[i]) == 0.0 {
+                    assert_eq!(out, [0; 4], "{}: a miss", what());
+                    continue;
+                }
+                let color = |q: usize| {
+                    let fed = unpack_rgb([feedback[q][0], feedback[q][1]]);
+                    if step.features.has(Feedback) { fed } else { kept(history[q]).color }
+                };
+                let (mean, expected, squares) = fill(&bench, &guide, &history, &color, x, y);
+                let (found, deviation) = unpack_tap(out);
+                for (found, expected) in found.into_iter().zip(mean) {
+                    let allowed = 2e-3 * expected + 1e-3 * squares.sqrt() + 1e-9;
+                    assert_close(found, expected, allowed, || format!("{}: filled", what()));
+                }
+                let allowed = 4e-3 * expected.powi(2) + 2e-3 * squares + 1e-18;
+                let error = (deviation.powi(2) - expected.powi(2)).abs();
+                assert!(error <= allowed, "{}: deviation {deviation} of what fills, not {expected}", what());
                 continue;
             }
             let fed = unpack_rgb([feedback[i][0], feedback[i][1]]);

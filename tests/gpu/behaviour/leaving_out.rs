@@ -129,7 +129,7 @@ fn what_was_prepared_is_all_that_frames_need_and_is_shared() {
     first.denoiser.prepare(&first.uploaded, TextureFormat::Rgba32Float).unwrap();
     let prepared = first.denoiser.pipelines().count();
     let pipelines = Some(first.denoiser.pipelines().clone());
-    let descriptor = DenoiserDescriptor { size: SIZE, pipelines, ..Default::default() };
+    let descriptor = DenoiserDescriptor { size: SIZE, pipelines, views: true, ..Default::default() };
     let second = Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap();
     // Still, with a light that goes out, and seen from elsewhere.
     first.frames(32);

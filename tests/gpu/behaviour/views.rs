@@ -53,8 +53,8 @@ fn numbers_are_within_their_documented_ranges() {
     check(View::TriangleId, &|id, hit| id[2] == f32::from(u8::from(hit)) && (!hit || id[0] < 48.0 && id[1] == 0.0));
     check(View::Gradient, &|g, _| unit(g[0]));
     check(View::Lambda, &|l, hit| unit(l[0]) && (hit || l[0] == 0.0));
-    // 0 where a path is repeated and nothing has changed: it is no new sample.
-    check(View::Alpha, &|a, hit| if hit { a[0] == 0.0 || a[0] >= 0.02 && unit(a[0]) } else { a[0] == 0.0 });
+    // It is λ where a path is repeated, as that is no new sample, and so may be 0.
+    check(View::Alpha, &|a, hit| unit(a[0]) && (hit || a[0] == 0.0));
     check(View::HistoryLength, &|n, hit| if hit { (1.0..=5.0).contains(&n[0]) } else { n[0] == 0.0 });
     check(View::Variance, &|v, _| v[0] >= 0.0 && v[0].is_finite());
     check(View::NonFinite, &|x, _| x[0] == 0.0);

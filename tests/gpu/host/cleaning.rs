@@ -21,7 +21,12 @@ fn soiled(frame: &Recorded) -> (Recorded, Recorded, [u32; 2]) {
     for (k, i) in (0..frame.light.len()).step_by(7).enumerate() {
         let value = kinds[k % kinds.len()];
         bad.light[i][k % 3] = value;
-        good.light[i][k % 3] = 0.0;
+        match value {
+            // No sample at all.
+            _ if value.is_nan() => good.light[i] = [f32::NAN; 3],
+            f32::INFINITY => good.light[i][k % 3] = 65504.0,
+            _ => good.light[i][k % 3] = 0.0,
+        }
         counts[usize::from(value.is_finite())] += 1;
     }
     (bad, good, counts)
@@ -49,15 +54,16 @@ fn counts(denoiser: &mut Denoiser) -> InputCounts {
 }
 
 #[test]
-fn bad_radiance_is_black_and_counted() {
+fn bad_radiance_is_replaced_and_counted() {
     let frames = recorded(Settings::adaptive());
     let (mut a, mut b) = (counting(Gradient::Reshade), counting(Gradient::Reshade));
     for frame in &frames[..4] {
         let (bad, good, [non_finite, negative]) = soiled(frame);
-        assert_eq!(denoise(&mut a, &bad), denoise(&mut b, &good));
-        let [found, none] = [&mut a, &mut b].map(counts);
+        assert!(denoise(&mut a, &bad) == denoise(&mut b, &good), "frame {}", frame.index);
+        let [found, cleaned] = [&mut a, &mut b].map(counts);
         assert_eq!([found.frame, found.non_finite, found.negative], [frame.index, non_finite, negative]);
-        assert_eq!([none.frame, none.surfaces, none.non_finite, none.negative, none.pairs], [frame.index, 0, 0, 0, 0]);
+        let missing = good.light.iter().filter(|c| c.iter().any(|x| x.is_nan())).count() as u32;
+        assert_eq!([cleaned.surfaces, cleaned.non_finite, cleaned.negative, cleaned.pairs], [0, missing, 0, 0]);
         assert!(a.take_counts().is_none(), "one count for each frame");
     }
     assert!(super::view(&mut a, View::NonFinite).iter().all(|c| c[0] == 0.0));

@@ -8,6 +8,7 @@ pub mod hostile;
 pub mod limits;
 pub mod painted;
 pub mod radiance;
+pub mod samples;
 pub mod shapes;
 
 use crate::common::statistics::Rgb;
