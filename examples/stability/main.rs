@@ -16,6 +16,7 @@ use std::process::ExitCode;
 /// The groups, in the order of the table.
 const GROUPS: [(&str, &[cases::Case]); 8] = [
     ("Range of radiance", cases::radiance::CASES),
+    ("Missing, infinite and repeated samples", cases::samples::CASES),
     ("Stiff dynamics", cases::dynamics::CASES),
     ("Geometry", cases::geometry::CASES),
     ("Shapes of the image", cases::shapes::CASES),

@@ -1,6 +1,6 @@
 //! The list of methods.
 
-use crate::methods::{CONTROL, DEFAULT, Group, ONE_PATH, all, quick};
+use crate::methods::{ALPHAS, CONTROL, DEFAULT, Group, ONE_PATH, all, quick};
 use asvgf::Settings;
 use std::collections::HashSet;
 
@@ -27,7 +27,7 @@ fn what_is_left_out_differs_from_the_default() {
 #[test]
 fn the_quick_suite_has_what_its_words_are_about() {
     let names: Vec<_> = quick().into_iter().map(|method| method.name).collect();
-    assert_eq!(names.len(), 12);
+    assert_eq!(names.len(), 10 + 2 * ALPHAS.len());
     for name in [DEFAULT, ONE_PATH, CONTROL, "svgf 0.2", "svgf 0.05"] {
         assert!(names.iter().any(|known| known == name), "{name}");
     }

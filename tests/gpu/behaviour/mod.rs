@@ -4,6 +4,7 @@ mod change;
 mod leaving_out;
 mod lifecycle;
 mod motion;
+mod pauses;
 mod recording;
 mod refusals;
 mod still;

@@ -4,6 +4,7 @@ mod agreement;
 mod area;
 mod furnace;
 mod materials;
+mod paths;
 mod punctual;
 
 use crate::common::plane::{Pinhole, V, add, scale};

@@ -1,0 +1,137 @@
+//! What moved follows from what a denoiser rendered last: when a scene is updated, how often and for whom makes no difference.
+
+use crate::common::stage::Stage;
+use crate::common::statistics::{Rgb, relative_mse};
+use asvgf::scene::Pose;
+use asvgf::{FilterSettings, Frame, Gradient, Mode, Settings, View};
+
+const SIZE: [u32; 2] = [40, 24];
+
+fn settings() -> [Settings; 4] {
+    let with = |gradient| FilterSettings { gradient, ..Default::default() };
+    let filters = [with(Gradient::Reshade), with(Gradient::BlinnPhong), FilterSettings::classic(), with(Gradient::Off)];
+    filters.map(|filter| Settings { filter, ..Settings::adaptive() })
+}
+
+/// A stage in the middle of an animation in which everything moves.
+fn moving(settings: Settings) -> Stage {
+    let mut stage = Stage::built_in("cornell", "all", SIZE, settings);
+    stage.index = 20;
+    stage.frames(4);
+    stage
+}
+
+/// Renders the next frame of the scene as it was last updated.
+fn render(stage: &mut Stage, pose: &Pose) -> Vec<Rgb> {
+    let frame =
+        Frame { scene: &stage.uploaded, camera: stage.camera_in(pose), index: stage.index, target: &stage.target };
+    let gpu = stage.gpu;
+    gpu.submit(|encoder| stage.denoiser.render(&gpu.device, encoder, &frame)).unwrap();
+    stage.index += 1;
+    stage.image()
+}
+
+/// Updates a stage's scene to poses, and renders nothing.
+fn update(stage: &mut Stage, poses: &[&Pose]) {
+    let gpu = stage.gpu;
+    gpu.submit(|encoder| poses.iter().for_each(|pose| stage.uploaded.update(&gpu.device, encoder, pose).unwrap()));
+}
+
+#[test]
+fn a_paused_scene_stands_still_whether_it_is_updated_or_not() {
+    for settings in settings() {
+        let gradient = settings.filter.gradient;
+        let (mut left, mut updated, mut shaken) =
+            (moving(settings.clone()), moving(settings.clone()), moving(settings));
+        let (pose, other) = (left.pose_at(23), left.pose_at(50));
+        for frame in 0..6 {
+            update(&mut updated, &[&pose]);
+            update(&mut shaken, &[&other, &pose]);
+            let image = render(&mut left, &pose);
+            assert!(image == render(&mut updated, &pose), "{gradient:?}, frame {frame}: updated");
+            assert!(image == render(&mut shaken, &pose), "{gradient:?}, frame {frame}: elsewhere in between");
+            assert!(left.view(View::Motion).iter().all(|m| m[0] == 0.0 && m[1] == 0.0), "{gradient:?}, frame {frame}");
+            assert_eq!(left.largest(View::Lambda), 0.0, "{gradient:?}, frame {frame}");
+            assert_eq!(left.denoiser.plan().unwrap().features, updated.denoiser.plan().unwrap().features);
+        }
+        assert!(left.denoiser.plan().unwrap().features.has(asvgf::plan::Feature::Still), "{gradient:?}");
+    }
+}
+
+#[test]
+fn what_moves_at_half_the_frame_rate_rests_in_between() {
+    let mut stage = moving(Settings::adaptive());
+    for step in 0..3 {
+        let pose = stage.pose_at(24 + 2 * step);
+        update(&mut stage, &[&pose]);
+        render(&mut stage, &pose);
+        assert!(stage.view(View::Motion).iter().any(|m| m[0] != 0.0 || m[1] != 0.0), "step {step}");
+        render(&mut stage, &pose);
+        assert!(stage.view(View::Motion).iter().all(|m| m[0] == 0.0 && m[1] == 0.0), "step {step}");
+    }
+}
+
+#[test]
+fn each_of_several_denoisers_sees_its_own_motion() {
+    for settings in settings() {
+        // One sees every pose of a scene, another every second one; and the same of a scene of its own.
+        let (mut every, mut every_alone) = (moving(settings.clone()), moving(settings.clone()));
+        let mut second_alone = Stage::built_in("cornell", "all", SIZE, settings.clone());
+        let mut second = Stage::built_in("cornell", "all", SIZE, settings).denoiser;
+        for step in 0..6 {
+            let pose = every.pose_at(24 + step);
+            update(&mut every, &[&pose]);
+            update(&mut every_alone, &[&pose]);
+            if step % 2 == 1 {
+                update(&mut second_alone, &[&pose]);
+                let index = std::mem::replace(&mut every.index, second_alone.index);
+                std::mem::swap(&mut every.denoiser, &mut second);
+                let image = render(&mut every, &pose);
+                std::mem::swap(&mut every.denoiser, &mut second);
+                every.index = index;
+                assert!(image == render(&mut second_alone, &pose), "step {step}: every second pose");
+            }
+            assert!(render(&mut every, &pose) == render(&mut every_alone, &pose), "step {step}: every pose");
+        }
+    }
+}
+
+#[test]
+fn a_mean_over_frames_goes_on_in_a_scene_that_has_moved() {
+    let settings = Settings { mode: Mode::Reference, ..Settings::adaptive() };
+    let mut moved = moving(settings.clone());
+    let mut rested = Stage::built_in("cornell", "all", SIZE, settings);
+    let pose = moved.pose_at(40);
+    rested.index = moved.index;
+    update(&mut moved, &[&pose]);
+    update(&mut rested, &[&pose]);
+    for frame in 0..8 {
+        assert!(render(&mut moved, &pose) == render(&mut rested, &pose), "frame {frame}");
+    }
+    // And it is a mean: an eighth of the variance of one frame.
+    let mut noisy = Stage::built_in("cornell", "all", SIZE, Settings { mode: Mode::Noisy, ..Settings::adaptive() });
+    noisy.index = 1000;
+    update(&mut noisy, &[&pose]);
+    let one = render(&mut noisy, &pose);
+    let eight = moved.image();
+    let truth = (0..192).map(|_| render(&mut rested, &pose)).last().unwrap();
+    let [one, eight] = [one, eight].map(|image| relative_mse(&image, &truth));
+    println!("relative squared error {one:.4} after one frame, {eight:.4} after eight");
+    assert!((4.0..16.0).contains(&(one / eight)));
+}
+
+#[test]
+fn a_frame_number_out_of_step_begins_anew_in_every_mode() {
+    let reference = Settings { mode: Mode::Reference, ..Settings::adaptive() };
+    for settings in settings().into_iter().chain([reference]) {
+        for step in [0, 2, -1_i64] {
+            let what = format!("{:?}, {:?}, step {step}", settings.mode, settings.filter.gradient);
+            let mut stage = Stage::built_in("cornell", "static", SIZE, settings.clone());
+            stage.frames(5);
+            stage.index = (4 + step) as u32;
+            let mut fresh = Stage::built_in("cornell", "static", SIZE, settings.clone());
+            fresh.index = stage.index;
+            assert!(stage.frame().image() == fresh.frame().image(), "{what}");
+        }
+    }
+}
