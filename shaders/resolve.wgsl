@@ -3,7 +3,7 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::packing::unpack_rgb
 #ifdef ACCUMULATE
-#import asvgf::packing::is_sample
+#import asvgf::packing::is_missing
 #endif
 #ifndef UNFILTERED
 #import asvgf::history::filtered_color
@@ -106,7 +106,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #ifdef ACCUMULATE
     // What is missing is no sample of the mean.
-    var sum = select(vec4(0.0), vec4(result, 1.0), is_sample(arrived));
+    var sum = select(vec4(result, 1.0), vec4(0.0), is_missing(arrived));
     if frame.continued != 0u {
         sum += textureLoad(sum_previous, pixel, 0);
     }

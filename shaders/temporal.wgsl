@@ -13,7 +13,7 @@
 #import asvgf::history::{pack_history, history_color, history_variance, history_length, rounding}
 #import asvgf::packing::{unpack_rgb, unpack_normal}
 #ifdef MISSING_SAMPLES
-#import asvgf::packing::is_sample
+#import asvgf::packing::{is_missing, is_sample}
 #endif
 #ifdef FEEDBACK
 #import asvgf::packing::pack_rgb
@@ -313,7 +313,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     color = vec3(max(mean, 0.0));
 #endif
     let packed = pack_history(color, variance, length, rounding(id.xy, frame.index));
-    textureStore(history_out, pixel, vec4(select(vec2(0u), packed, seen && length > 0.0), 0u, 0u));
+#ifdef MISSING_SAMPLES
+    // An infinite sample without a history is kept as a colour of length 0, to be shown.
+    let kept = seen && (length > 0.0 || history.weight <= 0.0 && !is_missing(arrived));
+#else
+    let kept = seen;
+#endif
+    textureStore(history_out, pixel, vec4(select(vec2(0u), packed, kept), 0u, 0u));
 #ifdef KEEP_WEIGHTS
     textureStore(weights_out, pixel, vec4(select(vec2(0.0), vec2(alpha, lambda), seen), 0.0, 0.0));
 #endif

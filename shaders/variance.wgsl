@@ -189,7 +189,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     let color = color_at(pixel, h);
 #ifdef MISSING_SAMPLES
-    let other = filled(pixel, plane, normal, length <= 0.0 && g.y != 0u);
+    // What is infinite is shown, and so far from all else that it is not mixed with it.
+    let infinite = any(h != vec2(0u));
+    var other = filled(pixel, plane, normal, length <= 0.0 && g.y != 0u && !infinite);
+    other = select(other, pack_tap(color, 0.0), infinite);
 #else
     let other = vec2(0u);
 #endif

@@ -14,7 +14,7 @@ mod table;
 use std::process::ExitCode;
 
 /// The groups, in the order of the table.
-const GROUPS: [(&str, &[cases::Case]); 8] = [
+const GROUPS: [(&str, &[cases::Case]); 9] = [
     ("Range of radiance", cases::radiance::CASES),
     ("Missing, infinite and repeated samples", cases::samples::CASES),
     ("Stiff dynamics", cases::dynamics::CASES),

@@ -4,7 +4,7 @@
 // instead.
 
 #import asvgf::color::{BRIGHTEST, is_finite, is_infinite, is_nan, sanitize}
-#import asvgf::packing::{NO_SAMPLE, pack_rgb}
+#import asvgf::packing::{INFINITE_SAMPLE, NO_SAMPLE, pack_rgb}
 #ifdef ALBEDO
 #import asvgf::packing::round_to_f16
 #endif
@@ -37,12 +37,15 @@ fn are_finite(color: vec3<f32>) -> vec3<bool> {
     return vec3(is_finite(color.x), is_finite(color.y), is_finite(color.z));
 }
 
+fn are_infinite(color: vec3<f32>) -> vec3<bool> {
+    return vec3(is_infinite(color.x), is_infinite(color.y), is_infinite(color.z));
+}
+
 fn clean(color: vec3<f32>) -> vec3<f32> {
 #ifdef DIAGNOSTICS
     count(color, are_finite(color));
 #endif
-    let infinite = vec3(is_infinite(color.x), is_infinite(color.y), is_infinite(color.z));
-    return sanitize(select(color, vec3(INFINITE), infinite));
+    return sanitize(select(color, vec3(INFINITE), are_infinite(color)));
 }
 
 #ifdef ALBEDO
@@ -71,21 +74,26 @@ fn host_emission(pixel: vec2<i32>) -> vec2<u32> {
 #endif
 
 // The light alone, r = max(radiance − emission, 0) / divisor, the divisor being the albedo, if that is in it. What is no number
-// is no sample.
+// is no sample. What is infinite, and not by emission, is marked: shown where there is nothing else, it enters no average.
 fn host_radiance(pixel: vec2<i32>, divisor: vec3<f32>) -> vec2<u32> {
     let given = textureLoad(radiance, pixel, 0).xyz;
     var r = clean(given);
+    var infinite = are_infinite(given);
 #ifdef MODULATED
 #ifdef DIRECT_EMISSION
     // Where colour and emission disagree by a pixel, as at a light's edge, light must not become negative.
-    r = max(r - clean(textureLoad(emission, pixel, 0).xyz), vec3(0.0));
+    let emitted = textureLoad(emission, pixel, 0).xyz;
+    r = max(r - clean(emitted), vec3(0.0));
+    infinite &= !are_infinite(emitted);
 #endif
 #ifdef ALBEDO
     r /= divisor;
 #endif
 #endif
+    var packed = pack_rgb(min(r, vec3(BRIGHTEST)));
+    packed.y |= select(0u, INFINITE_SAMPLE, any(infinite));
     let missing = is_nan(given.x) | is_nan(given.y) | is_nan(given.z);
-    return select(pack_rgb(min(r, vec3(BRIGHTEST))), NO_SAMPLE, missing);
+    return select(packed, NO_SAMPLE, missing);
 }
 
 // As `host_radiance`, by the pixel's own albedo.

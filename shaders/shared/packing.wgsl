@@ -28,8 +28,16 @@ fn unpack_rgb(bits: vec2<u32>) -> vec3<f32> {
 // What stands for a radiance where there is none: an exponent that no radiance has. Read as one, it is black.
 const NO_SAMPLE: vec2<u32> = vec2(0u, 0x400000u);
 
+// Marks a radiance that is infinite: the highest bit of the exponent, which `unpack_rgb` shifts out.
+const INFINITE_SAMPLE: u32 = 0x80000000u;
+
+fn is_missing(bits: vec2<u32>) -> bool {
+    return bits.y == NO_SAMPLE.y;
+}
+
+// Whether it can be averaged.
 fn is_sample(bits: vec2<u32>) -> bool {
-    return bits.y != NO_SAMPLE.y;
+    return !is_missing(bits) && bits.y < INFINITE_SAMPLE;
 }
 
 // A non-negative float in 16 bits: 6 of exponent, 10 of mantissa, 2⁻³¹ … 2³³, half an ulp 2⁻¹². It is f16 with the sign's bit

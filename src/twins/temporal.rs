@@ -67,8 +67,9 @@ struct Before {
     surface: f64,
 }
 
-/// What stands for a radiance where there is none.
+/// What stands for a radiance where there is none, and what marks an infinite one.
 const NO_SAMPLE: Texel = [0, 1 << 22, 0, 0];
+const INFINITE: u32 = 1 << 31;
 
 fn pack_guide(g: &[u32; 2]) -> Texel {
     [g[0], g[1], 0, 0]
@@ -98,7 +99,14 @@ impl Given {
             [a, b, 0, 0]
         };
         let gaps = features.has(Feature::MissingSamples);
-        let radiance_now = each(&mut |r| if gaps && r.below(6) == 0 { NO_SAMPLE } else { color(r) });
+        let radiance_now = each(&mut |r| match if gaps { r.below(12) } else { 12 } {
+            0 | 1 => NO_SAMPLE,
+            2 => {
+                let [a, b, ..] = color(r);
+                [a, b | INFINITE, 0, 0]
+            }
+            _ => color(r),
+        });
         let feedback = each(&mut |r| color(r));
         let history = (0..count)
             .map(|_| {
@@ -322,9 +330,9 @@ impl Given {
     pub(super) fn twin(&self, x: i32, y: i32) -> Blended {
         let i = self.bench.at(x, y).unwrap();
         let f = &self.bench.settings.filter;
-        let sample = unpack_rgb([self.radiance[i][0], self.radiance[i][1]]);
+        let sample = unpack_rgb([self.radiance[i][0], self.radiance[i][1] & !INFINITE]);
         let l = luminance(sample);
-        let sampled = self.radiance[i] != NO_SAMPLE;
+        let sampled = self.radiance[i] != NO_SAMPLE && self.radiance[i][1] & INFINITE == 0;
         let length = if sampled { 1.0 } else { 0.0 };
         let mut out = Blended { color: sample, mean: l, length, alpha: 1.0, ..Default::default() };
         let mut notes = Notes { largest: sample.into_iter().fold(l, f64::max), ..Default::default() };
@@ -429,7 +437,14 @@ fn check(features: &[Feature], settings: &Settings) {
                 assert_close(found, expected, 2e-3, || format!("{}: α, λ", what()));
             }
             if expected.length == 0.0 {
-                assert_eq!(history, [0; 4], "{}: neither a sample nor a history", what());
+                if given.radiance[i][1] & INFINITE != 0 && expected.alpha == 1.0 {
+                    // Without a history, its colour is kept to be shown.
+                    let kept = unpack_history([history[0], history[1]]);
+                    let error = luminance(kept.color) - expected.mean;
+                    assert!(kept.length == 0.0 && error.abs() < 1e-3 * expected.largest, "{}: infinite", what());
+                } else {
+                    assert_eq!(history, [0; 4], "{}: neither a sample nor a history", what());
+                }
                 continue;
             }
             followed += usize::from(expected.length > 1.0);

@@ -18,6 +18,15 @@ pub const CASES: &[Case] = &[
         breaks: Breaks::Never("a pixel without a sample keeps its history, or is filled from around"),
     },
     Case {
+        name: "a hundredth of the radiance is infinite",
+        varied: "at random; adaptive and constant α, published formulas; frames 8 to 15",
+        quantity: "how far the mean is off, relative",
+        bound: 0.02,
+        origin: "what is infinite enters no average, and is shown only where there is no history",
+        measure: hundredth,
+        breaks: Breaks::Never("a pixel with a history ignores it"),
+    },
+    Case {
         name: "a block of radiance that is NaN in every frame",
         varied: "1×1 to 24×24 pixels, in the middle and in a corner",
         quantity: "largest difference of a pixel of the block from the wall, relative",
@@ -28,7 +37,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "infinite radiance beside a wall",
-        varied: "as radiance of the sky; as radiance and emission",
+        varied: "as radiance of the sky; as radiance and emission; as radiance of the wall",
         quantity: "how far it is from 65504, relative, and the wall from its own radiance",
         bound: 0.02,
         origin: "the largest 16-bit float; the wall's noise after 32 frames",
@@ -79,6 +88,18 @@ fn tenth() -> Worst {
     worst
 }
 
+fn hundredth() -> Worst {
+    let mut worst = Worst::default();
+    for (name, settings) in settings() {
+        let mut host = Painted::new(SIZE, settings);
+        let infinite = |path: &Path| if path.uniform(7) < 0.01 { [f32::INFINITY; 3] } else { noisy(path) };
+        host.frames(8, &infinite);
+        let images: Vec<Rgb> = (0..8).flat_map(|_| host.frame(&infinite)).collect();
+        worst.add((mean(&images) - 1.0).abs(), || name.into());
+    }
+    worst
+}
+
 fn block() -> Worst {
     let mut worst = Worst::default();
     for (name, settings) in settings() {
@@ -98,7 +119,7 @@ fn block() -> Worst {
 
 fn sun() -> Worst {
     let mut worst = Worst::default();
-    for (name, emits) in [("sky", false), ("emitter", true)] {
+    for name in ["sky", "emitter", "part of the wall"] {
         let mut host = Painted::new(SIZE, adaptive());
         let is_sun = |i: usize| (10..14).contains(&(i % SIZE[0] as usize)) && (10..14).contains(&(i / SIZE[0] as usize));
         let mut image = Vec::new();
@@ -107,10 +128,10 @@ fn sun() -> Worst {
             for i in (0..views.radiance.len()).filter(|&i| is_sun(i)) {
                 views.radiance[i] = [f32::INFINITY; 3];
                 views.pairs.iter_mut().for_each(|pair| pair[i] = [-1.0; 3]);
-                if emits {
-                    views.emission[i] = [f32::INFINITY; 3];
-                } else {
-                    views.depth[i] = [0.0];
+                match name {
+                    "emitter" => views.emission[i] = [f32::INFINITY; 3],
+                    "sky" => views.depth[i] = [0.0],
+                    _ => {}
                 }
             }
             image = host.denoise(&views);
