@@ -441,7 +441,7 @@ fn check(features: &[Feature], settings: &Settings) {
                     // Without a history, its colour is kept to be shown.
                     let kept = unpack_history([history[0], history[1]]);
                     let error = luminance(kept.color) - expected.mean;
-                    assert!(kept.length == 0.0 && error.abs() < 1e-3 * expected.largest, "{}: infinite", what());
+                    assert!(kept.length == 0.0 && error.abs() <= 1e-3 * expected.largest, "{}: infinite", what());
                 } else {
                     assert_eq!(history, [0; 4], "{}: neither a sample nor a history", what());
                 }

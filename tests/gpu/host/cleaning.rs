@@ -24,7 +24,8 @@ fn soiled(frame: &Recorded) -> (Recorded, Recorded, [u32; 2]) {
         match value {
             // No sample at all.
             _ if value.is_nan() => good.light[i] = [f32::NAN; 3],
-            f32::INFINITY => good.light[i][k % 3] = 65504.0,
+            // Marked as such, whatever is in the other channels.
+            f32::INFINITY => good.light[i][k % 3] = value,
             _ => good.light[i][k % 3] = 0.0,
         }
         counts[usize::from(value.is_finite())] += 1;
@@ -62,7 +63,7 @@ fn bad_radiance_is_replaced_and_counted() {
         assert!(denoise(&mut a, &bad) == denoise(&mut b, &good), "frame {}", frame.index);
         let [found, cleaned] = [&mut a, &mut b].map(counts);
         assert_eq!([found.frame, found.non_finite, found.negative], [frame.index, non_finite, negative]);
-        let missing = good.light.iter().filter(|c| c.iter().any(|x| x.is_nan())).count() as u32;
+        let missing = good.light.iter().filter(|c| c.iter().any(|x| !x.is_finite())).count() as u32;
         assert_eq!([cleaned.surfaces, cleaned.non_finite, cleaned.negative, cleaned.pairs], [0, missing, 0, 0]);
         assert!(a.take_counts().is_none(), "one count for each frame");
     }

@@ -24,8 +24,11 @@ fn assert_same(a: &[Rgb], b: &[Rgb], allowed: [f64; 2], what: &str) {
 fn level_2_is_the_path_tracers_own_gradient() {
     let frames = recorded(Settings::adaptive());
     let images = replay(&mut denoiser(Settings::adaptive()), &frames);
+    // A host's noise may be the same in every frame, the path tracer's is not: where two samples agree to a thousandth by chance, a
+    // host's pixel takes its neighbours' variance.
+    let allowed = [0.03, ROUNDING[1]];
     for (image, frame) in images.iter().zip(&frames) {
-        assert_same(image, &frame.denoised, ROUNDING, &format!("frame {}", frame.index));
+        assert_same(image, &frame.denoised, allowed, &format!("frame {}", frame.index));
     }
     // It is the gradient that does it: without, the lamp stays on in the history.
     let blind = replay(&mut denoiser(with(Gradient::Off, false)), &frames);
