@@ -86,9 +86,15 @@ fn filled(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, missing: bool) -> v
 // history keeps.
 const SILENT: f32 = 1e-6;
 
-// What the least of four such estimates is on average of independent noise, over its variance: between 0.60 and 0.63 of uniform,
+// What the least of four means over nine triples is of independent noise, over its variance: between 0.60 and 0.63 of uniform,
 // exponential and rare noise.
 const LEAST_OF_FOUR: f32 = 0.6;
+
+// Triples of a direction that tell anything: two rows of three.
+const FEWEST: f32 = 5.5;
+
+// How much greater a mean may be than the fourth largest of what it is of.
+const LONE: f32 = 20.0;
 
 // A radiance on the centre's surface, as a difference to the centre's, and whether there is one.
 struct Neighbour {
@@ -104,22 +110,48 @@ fn neighbour(pixel: vec2<i32>, offset: vec2<i32>, plane: Plane, normal: vec3<f32
     return Neighbour(mean_luminance(h) - center, select(0.0, there, inside(tap) && history_length(h) > 0.0));
 }
 
-// The variance that neighbours show in one direction, as a sum of squares and its weight: three independent numbers a, b, c in a
-// row have E[(b − (a + c)/2)²] = 1½·Var (compare Immerkær 1996, "Fast Noise Variance Estimation").
-fn roughness(pixel: vec2<i32>, at: vec2<i32>, step: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32) -> vec2<f32> {
+// The variance that three neighbours in a row show: independent numbers a, b, c have E[(b − (a + c)/2)²] = 1½·Var (compare
+// Immerkær 1996, "Fast Noise Variance Estimation").
+// With its weight, 0 where one of the three is elsewhere.
+fn bend(pixel: vec2<i32>, at: vec2<i32>, step: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32) -> vec2<f32> {
     let a = neighbour(pixel, at - step, plane, normal, center);
     let b = neighbour(pixel, at, plane, normal, center);
     let c = neighbour(pixel, at + step, plane, normal, center);
-    let weight = a.weight * b.weight * c.weight;
-    let bend = b.difference - 0.5 * (a.difference + c.difference);
-    return weight * vec2(bend * bend / 1.5, 1.0);
+    let difference = b.difference - 0.5 * (a.difference + c.difference);
+    return a.weight * b.weight * c.weight * vec2(difference * difference / 1.5, 1.0);
 }
 
-// The least of four variances, of those that something is known of; else 0.
-fn least(squares: vec4<f32>, weights: vec4<f32>) -> f32 {
-    let each = select(vec4(1e30), squares / max(weights, vec4(1e-6)), weights > vec4(1e-3));
-    let variance = min(min(each.x, each.y), min(each.z, each.w));
-    return select(0.0, variance, variance < 1e30);
+// The variance of noise that is the same in every frame: the mean over 3×3 such triples. An edge does not vary along itself, so the
+// least of four directions counts, of those with enough triples to tell. A lone bright pixel is in three of them: where there is
+// nothing else, it is no noise.
+fn repeated(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32, silent: bool) -> f32 {
+    var first = vec4(0.0);
+    var second = vec4(0.0);
+    var third = vec4(0.0);
+    var fourth = vec4(0.0);
+    var sum = vec4(0.0);
+    var weights = vec4(0.0);
+    // At the image's border, those beside it: what lies along the border could not be told from noise else.
+    let middle = clamp(pixel, vec2(2), max(vec2<i32>(frame.size) - 3, vec2(2))) - pixel;
+    let places = select(0, 9, silent);
+    for (var i = 0; i < places; i++) {
+        let row = (i * 11) >> 5u;
+        let at = middle + vec2(i - 3 * row, row) - 1;
+        let across = bend(pixel, at, vec2(1, 0), plane, normal, center);
+        let down = bend(pixel, at, vec2(0, 1), plane, normal, center);
+        let falling = bend(pixel, at, vec2(1, 1), plane, normal, center);
+        let rising = bend(pixel, at, vec2(1, -1), plane, normal, center);
+        let next = vec4(across.x, down.x, falling.x, rising.x);
+        fourth = max(fourth, min(third, next));
+        third = max(third, min(second, next));
+        second = max(second, min(first, next));
+        first = max(first, next);
+        sum += next;
+        weights += vec4(across.y, down.y, falling.y, rising.y);
+    }
+    let each = select(vec4(1e30), min(sum / max(weights, vec4(1.0)), LONE * fourth), weights >= vec4(FEWEST));
+    let least = min(min(each.x, each.y), min(each.z, each.w));
+    return select(0.0, least / LEAST_OF_FOUR, least < 1e30);
 }
 #endif
 
@@ -170,22 +202,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #ifdef REPEATED_NOISE
     // A renderer that takes the same random numbers in each frame has noise that no history shows, and no average lessens: its
-    // frames are worth one. What differs from its neighbours in every direction is noise; an edge does not along itself.
+    // frames are worth one.
     let silent = length >= 2.0 && center > 0.0 && history_variance(h) <= SILENT * center * center;
-    var squares = vec4(0.0);
-    var supports = vec4(0.0);
-    let places = select(0, 9, silent);
-    for (var i = 0; i < places; i++) {
-        let row = (i * 11) >> 5u;
-        let at = vec2(i - 3 * row, row) - 1;
-        let across = roughness(pixel, at, vec2(1, 0), plane, normal, center);
-        let down = roughness(pixel, at, vec2(0, 1), plane, normal, center);
-        let falling = roughness(pixel, at, vec2(1, 1), plane, normal, center);
-        let rising = roughness(pixel, at, vec2(1, -1), plane, normal, center);
-        squares += vec4(across.x, down.x, falling.x, rising.x);
-        supports += vec4(across.y, down.y, falling.y, rising.y);
-    }
-    variance = select(variance, max(variance, SHORT / LEAST_OF_FOUR * least(squares, supports)), silent);
+    variance = max(variance, SHORT * repeated(pixel, plane, normal, center, silent));
 #endif
     let color = color_at(pixel, h);
 #ifdef MISSING_SAMPLES

@@ -12,9 +12,9 @@ use crate::host;
 use crate::passes::{self, Pass};
 use crate::plan::{Changes, Decision, HostTraits, Plan, Slot, Step, Traversal};
 use crate::settings::Settings;
+use crate::{Error, View, ViewOptions};
 #[cfg(feature = "path-tracer")]
 use crate::{scene::Snapshot, settings::TracerSettings};
-use crate::{Error, View, ViewOptions};
 #[cfg(feature = "path-tracer")]
 use std::sync::Arc;
 use wgpu::{

@@ -3,7 +3,8 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] = &[Feature::Feedback, Feature::VarianceOfMean, Feature::MissingSamples, Feature::RepeatedNoise];
+const FEATURES: &[Feature] =
+    &[Feature::Feedback, Feature::VarianceOfMean, Feature::MissingSamples, Feature::RepeatedNoise];
 
 pub(crate) fn step(features: Features) -> Step {
     let features = features.and(Features::of(FEATURES));

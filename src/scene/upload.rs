@@ -7,8 +7,8 @@ use super::folded::{self, Texel};
 use super::geometry::{self, Geometry};
 use super::instances::{self, Instance, NODE_TEXELS, top_level_nodes, top_level_texels};
 use super::lights::{self, AnalyticLight, Emitter, GpuLight};
-use super::texels::{self, Place};
 use super::snapshot::{Snapshot, Visible};
+use super::texels::{self, Place};
 use super::{Light, Material, Matrix, Pose, Scene, SceneError, materials};
 use crate::plan::{Traits, Traversal};
 use bytemuck::{Pod, Zeroable};
@@ -256,7 +256,12 @@ impl GpuScene {
             stack,
             pose: pose.clone(),
             // Its buffers are replaced below, once the lights have their places.
-            snapshot: Arc::new(Snapshot { scene: id, visible, placements: empty.clone(), analytic_lights: empty.clone() }),
+            snapshot: Arc::new(Snapshot {
+                scene: id,
+                visible,
+                placements: empty.clone(),
+                analytic_lights: empty.clone(),
+            }),
             instances,
             emitters: emitters.into_values().collect(),
             light_table,

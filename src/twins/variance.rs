@@ -36,14 +36,7 @@ fn neighbour(
 
 /// What fills a pixel without a history: the mean over neighbours of its surface, its deviation, and the greatest square of a
 /// luminance.
-fn fill(
-    bench: &Bench,
-    guide: &[[u32; 2]],
-    history: &[Texel],
-    colors: &[V],
-    x: i32,
-    y: i32,
-) -> (V, f64, f64) {
+fn fill(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], colors: &[V], x: i32, y: i32) -> (V, f64, f64) {
     let (mut sum, mut square, mut weights, mut squares) = ([0.0; 3], 0.0, 0.0, 0.0);
     for spacing in [1, 3, 9] {
         if weights >= 6.0 {
@@ -66,25 +59,33 @@ fn fill(
     (mean, variance.sqrt(), squares)
 }
 
-/// The least of the deviations that triples of neighbours show along four directions, from the 3×3 around a pixel; and the
-/// greatest square of a difference.
+/// The deviation that noise which never changes is taken to have, as triples of neighbours show it from the 3×3 around a pixel: of each
+/// of four directions the mean, if the fourth largest is at least a twentieth of it; of these the least. And the greatest square of a
+/// luminance.
 fn bends(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
     let mut squares = 0.0;
-    let variances = [[1, 0], [0, 1], [1, 1], [1, -1]].map(|[sx, sy]: [i32; 2]| {
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))) {
+    // Within the image.
+    let [mx, my] =
+        [(x, bench.size[0]), (y, bench.size[1])].map(|(at, size)| at.max(2).min((size as i32 - 3).max(2)) - at);
+    let means = [[1, 0], [0, 1], [1, 1], [1, -1]].map(|[sx, sy]: [i32; 2]| {
+        let (mut bends, mut weights) = (vec![0.0; 4], 0.0);
+        for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (mx + dx, my + dy))) {
             let triple = [-1, 0, 1].map(|k| neighbour(bench, guide, history, [x, y], [dx + k * sx, dy + k * sy]));
             let [Some(a), Some(b), Some(c)] = triple else { continue };
             let [l, m, r] = [a, b, c].map(|(q, _)| luminance(kept(history[q]).color));
-            let weight = a.1 * b.1 * c.1;
-            sum += weight * (m - 0.5 * (l + r)).powi(2) / 1.5;
-            weights += weight;
+            bends.push(a.1 * b.1 * c.1 * (m - 0.5 * (l + r)).powi(2) / 1.5);
+            weights += a.1 * b.1 * c.1;
             squares = f64::max(squares, (l * l).max(m * m).max(r * r));
         }
-        if weights > 1e-3 { sum / weights } else { f64::INFINITY }
+        bends.sort_by(|a, b| b.total_cmp(a));
+        let mean = (bends.iter().sum::<f64>() / weights).min(20.0 * bends[3]);
+        if weights >= 5.5 { mean } else { f64::INFINITY }
     });
-    let least = variances.into_iter().fold(f64::INFINITY, f64::min);
-    (if least.is_finite() { (4.0 / 0.6 * least).sqrt() } else { 0.0 }, squares)
+    let least = means.into_iter().fold(f64::INFINITY, f64::min);
+    if least.is_infinite() {
+        return (0.0, squares);
+    }
+    ((4.0 / 0.6 * least).sqrt(), squares)
 }
 
 /// The standard deviation that steers the luminance stop, and the scale of the numbers that it is a difference of.

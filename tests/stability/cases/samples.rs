@@ -121,7 +121,8 @@ fn sun() -> Worst {
     let mut worst = Worst::default();
     for name in ["sky", "emitter", "part of the wall"] {
         let mut host = Painted::new(SIZE, adaptive());
-        let is_sun = |i: usize| (10..14).contains(&(i % SIZE[0] as usize)) && (10..14).contains(&(i / SIZE[0] as usize));
+        let is_sun =
+            |i: usize| (10..14).contains(&(i % SIZE[0] as usize)) && (10..14).contains(&(i / SIZE[0] as usize));
         let mut image = Vec::new();
         for _ in 0..32 {
             let mut views = host.views(&noisy);
