@@ -20,15 +20,21 @@ fn with_gradient(gradient: Gradient) -> Settings {
 
 /// Denoises, and returns each frame.
 fn denoised(sequence: &Sequence, settings: Settings) -> Vec<Vec<[f32; 3]>> {
+    told(sequence, settings).0
+}
+
+/// Denoises, and returns each frame, and the first that repeats the noise of the one before.
+fn told(sequence: &Sequence, settings: Settings) -> (Vec<Vec<[f32; 3]>>, Option<u32>) {
     let gpu = Gpu::new().unwrap();
     let mut film = Film::new(&gpu, sequence.size, settings).unwrap();
     let mut frames = Vec::new();
-    let times = replay::denoise(&mut film, sequence, |_, film| {
+    let denoised = replay::denoise(&mut film, sequence, |_, film| {
         frames.push(film.numbers(View::Denoised)?);
         Ok(())
     });
-    assert!(times.unwrap().times.iter().all(|passes| !passes.is_empty()));
-    frames
+    let denoised = denoised.unwrap();
+    assert!(denoised.times.iter().all(|passes| !passes.is_empty()));
+    (frames, denoised.repeated)
 }
 
 #[test]
@@ -92,6 +98,122 @@ fn a_light_that_reflects_nothing_is_kept_out_of_the_filter() {
             let expected = if i == 40 { 7.0 } else { 0.5 };
             assert!(pixel.iter().all(|x| (x - expected).abs() < 1e-2), "pixel {i}: {pixel:?} is not {expected}");
         }
+    }
+}
+
+/// A wall whose radiance is a number for each pixel and frame.
+fn painted(folder: &Folder, frames: u32, size: [u32; 2], radiance: &dyn Fn(u32, u32) -> f32) {
+    for frame in 0..frames {
+        let mut image = wall(size);
+        for (_, samples) in image.channels.iter_mut().take(3) {
+            samples.iter_mut().enumerate().for_each(|(i, x)| *x = radiance(frame, i as u32));
+        }
+        folder.write(frame, &image);
+    }
+}
+
+/// A number for each pixel and seed, 0…1.
+fn random(pixel: u32, seed: u32) -> f32 {
+    let mut x = pixel.wrapping_mul(0x9e37_79b9) ^ seed.wrapping_mul(0x85eb_ca6b);
+    for _ in 0..3 {
+        x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
+    }
+    (x >> 8) as f32 / 16_777_216.0
+}
+
+#[test]
+fn frames_with_the_same_noise_are_told_and_denoised_one_by_one() {
+    let size = [24, 16];
+    let (fixed, fresh, smooth) = (Folder::new(), Folder::new(), Folder::new());
+    painted(&fixed, 6, size, &|_, i| 2.0 * random(i, 7));
+    painted(&fresh, 6, size, &|frame, i| 2.0 * random(i, frame));
+    painted(&smooth, 6, size, &|_, i| 1.0 + 0.5 * (0.2 * (i % 24) as f32).sin());
+    let settings = || Settings::adaptive().constant(0.2);
+    let (frames, repeated) = told(&fixed.open().unwrap(), settings());
+    assert_eq!(repeated, Some(1));
+    let error = |frame: &[[f32; 3]]| frame.iter().map(|c| f64::from(c[0] - 1.0).powi(2)).sum::<f64>();
+    for (i, frame) in frames.iter().enumerate() {
+        assert!(error(frame) <= 1.01 * error(&frames[0]), "frame {i}");
+    }
+    // Noise that differs is averaged, and what has no noise may well stay the same.
+    let (frames, repeated) = told(&fresh.open().unwrap(), settings());
+    assert!(repeated.is_none() && error(&frames[5]) < 0.7 * error(&frames[0]));
+    assert_eq!(told(&smooth.open().unwrap(), settings()).1, None);
+}
+
+#[test]
+fn what_glows_faintly_and_is_lit_is_filtered_whatever_its_albedo() {
+    let (size, mirror) = ([24, 16], |i: u32| (6..18).contains(&(i % 24)) && (4..12).contains(&(i / 24)));
+    let folder = Folder::new();
+    for frame in 0..8 {
+        let mut image = wall(size);
+        add(&mut image, Layer::Albedo, &[0.5; 3]);
+        add(&mut image, Layer::Emission, &[0.0; 3]);
+        for (name, samples) in &mut image.channels {
+            for (i, x) in samples.iter_mut().enumerate().filter(|(i, _)| mirror(*i as u32)) {
+                match name.as_str() {
+                    "albedo.R" | "albedo.G" | "albedo.B" => *x = 0.0,
+                    "emission.R" | "emission.G" | "emission.B" => *x = 0.01,
+                    "R" | "G" | "B" => *x = 0.01 + 2.0 * random(i as u32, frame),
+                    _ => {}
+                }
+            }
+        }
+        folder.write(frame, &image);
+    }
+    let frames = denoised(&folder.open().unwrap(), Settings::adaptive().constant(0.2));
+    let of_mirror = || frames[7].iter().enumerate().filter(|(i, _)| mirror(*i as u32)).map(|(_, c)| f64::from(c[0]));
+    let mean = of_mirror().sum::<f64>() / of_mirror().count() as f64;
+    let deviation = (of_mirror().map(|x| (x - mean).powi(2)).sum::<f64>() / of_mirror().count() as f64).sqrt();
+    println!("a mirror of 1.01 with noise of 0.58: {mean:.3}, with noise of {deviation:.3}");
+    assert!((mean / 1.01 - 1.0).abs() < 0.1 && deviation < 0.15);
+    let wall = frames[7].iter().enumerate().filter(|(i, _)| !mirror(*i as u32));
+    assert!(wall.into_iter().all(|(_, c)| (c[0] - 0.5).abs() < 0.05), "the wall beside it stays what it is");
+}
+
+#[test]
+fn frames_of_a_still_scene_have_all_the_same_layers() {
+    let folder = Folder::new();
+    let gpu = Gpu::new().unwrap();
+    let scene = builtin::scene("pillars", "static").unwrap();
+    let uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
+    let mut film = Film::new(&gpu, SIZE, Settings::adaptive()).unwrap();
+    let seen = scene.camera_view(&scene.pose(None, 0.0), scene.camera_node().unwrap()).unwrap();
+    let camera = Camera { eye: seen.eye, target: seen.target, up: seen.up, fov_y: seen.fov_y, jitter: [0.0; 2] };
+    let (mut expected, mut frames) = (Vec::new(), Export::default());
+    for frame in 0..4 {
+        tracing::render(&mut film, &uploaded, camera, frame).unwrap();
+        expected.push(film.numbers(View::Denoised).unwrap());
+        frames.write(&folder.0.join(format!("frame_{frame:04}.exr")), &mut film).unwrap();
+    }
+    export::write_manifest(&folder.0, SIZE, &[camera; 4]).unwrap();
+    let sequence = folder.open().unwrap();
+    assert!(sequence.has(Layer::GradientCurrent) && sequence.has(Layer::Motion));
+    let found = denoised(&sequence, with_gradient(Gradient::Pairs));
+    for (frame, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        let difference: f64 =
+            found.as_flattened().iter().zip(expected.as_flattened()).map(|(a, b)| f64::from((a - b).abs())).sum();
+        let level: f64 = expected.as_flattened().iter().map(|x| f64::from(*x)).sum();
+        assert!(difference < 1e-3 * level, "frame {frame}: {difference} of {level}");
+    }
+}
+
+/// As `render` wrote them once: pairs in the first frame alone.
+#[test]
+fn a_frame_without_pairs_has_none() {
+    let folder = Folder::new();
+    for frame in 0..3 {
+        let mut image = wall([12, 8]);
+        if frame == 1 {
+            add(&mut image, Layer::GradientCurrent, &[-1.0; 3]);
+            add(&mut image, Layer::GradientPrevious, &[-1.0; 3]);
+        }
+        folder.write(frame, &image);
+    }
+    let sequence = folder.open().unwrap();
+    assert!(sequence.has(Layer::GradientCurrent));
+    for frame in denoised(&sequence, with_gradient(Gradient::Pairs)) {
+        assert!(frame.as_flattened().iter().all(|x| (x - 0.5).abs() < 1e-3), "a grey wall");
     }
 }
 
