@@ -94,7 +94,8 @@ pub enum Mode {
     Denoise,
     /// The path tracer's samples as they are.
     Noisy,
-    /// The mean of all frames since the last restart or change of scene or camera, in f32: converges to the truth.
+    /// The mean of all frames since the last restart or change of scene, camera or `TracerSettings`, in f32: converges to the
+    /// truth. Samples that are missing do not count.
     Reference,
 }
 
@@ -103,10 +104,11 @@ pub enum Mode {
 pub struct FilterSettings {
     /// Where the temporal gradient comes from. Changing it compiles.
     pub gradient: Gradient,
-    /// Least weight of a new frame, 0…1. Higher: noisier, but what the gradient misses is forgotten sooner. Lower: smoother,
+    /// Least weight of a new frame, 0…1. A history is then worth (2 − α)/α samples at most. Higher: noisier, but what the gradient misses is forgotten sooner. Lower: smoother,
     /// and slower to forget. With [`Gradient::Off`] this is *the* α of the moving average.
     pub alpha: f32,
-    /// Longest history in frames, 1…32768: the weight of a new frame is 1/n until n gets here. Higher: smoother still images.
+    /// Longest history in samples that it is worth, 1…32768: the weight of a new frame is 1/n until n gets here. Higher: smoother
+    /// still images.
     pub max_history: f32,
     /// k in n ← n·(1 − λ)ᵏ + 1, ≥ 0: how fast a history length falls with the gradient λ. Higher: less lag, more noise after
     /// a change. 0 never shortens.
@@ -114,7 +116,8 @@ pub struct FilterSettings {
     /// Rescale the history by the ratio that the gradient samples show before blending, and drop only what the ratio does
     /// not explain: less lag and less noise where light moves or dims. Re-shading and pairs only. Changing it compiles.
     pub history_ratio: bool,
-    /// Iterations that spread that ratio over the strata, 0…7. More: a steadier ratio, farther from where the light changed.
+    /// Iterations that spread that ratio over the strata, 0…7. More: a steadier ratio, farther from where the light changed. With 0
+    /// each stratum goes by its own path.
     pub ratio_iterations: u32,
     /// γ in λ = A\[Δ^(γ−1)·|δ|\] / A\[Δ^γ\], 0…1. Higher: a dim change beside a bright steady light is overlooked. Lower: a
     /// change that few samples see counts as much as one that all see.
@@ -293,7 +296,8 @@ pub enum Kernel {
 #[cfg(feature = "path-tracer")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TracerSettings {
-    /// Paths per pixel and frame, 1…65536. Higher: less noise, proportionally slower.
+    /// Paths per pixel and frame, 1…65536. Higher: less noise, proportionally slower. Many are traced in several dispatches, none of
+    /// which is taken for hung.
     pub samples: u32,
     /// Reflections after the first surface; 0 is direct light only. Higher: brighter corners, slower.
     pub bounces: u32,

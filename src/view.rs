@@ -24,9 +24,11 @@ pub enum View {
     Motion = 6,
     /// λ of each stratum before interpolation, 0…1.
     Gradient = 7,
-    /// λ of each pixel, 0…1; where there was no history to shorten, what it would have been. A host's own is not shown.
+    /// λ of each pixel, 0…1, a host's own too; 0 where there was no history to shorten. Needs
+    /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
     Lambda = 8,
-    /// Weight of the new frame, 0…1.
+    /// Weight of the new sample, 0…1, as it was blended: 1 where there was no history, λ where the sample repeats a path, 0 where there
+    /// is none. Needs [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
     Alpha = 9,
     /// History length in frames; beyond 32 counted at random, right on average. Picture: white at [`ViewOptions::range`].
     HistoryLength = 10,

@@ -66,7 +66,8 @@ fn repeats_noise(last: &Pixels, now: &Pixels, width: u32, [camera, before]: [Cam
     let brightness = |i: usize| is[3 * i..3 * i + 3].iter().sum::<f32>();
     // Between two neighbours in a row; an image without noise may well stay what it is.
     let is_noisy = |i: usize| {
-        let inside = i as u32 % width > 0 && (i as u32 + 1) % width > 0;
+        let column = i as u32 % width;
+        let inside = column > 0 && column + 1 < width;
         let around = if inside { 0.5 * (brightness(i - 1) + brightness(i + 1)) } else { brightness(i) };
         (brightness(i) - around).abs() > NOISY * around
     };

@@ -12,7 +12,8 @@ pub struct InputCounts {
     /// Pixels with a positive, finite depth whose normal is zero or not finite (taken for a miss), or whose motion or previous
     /// depth is not finite (taken for new).
     pub surfaces: u32,
-    /// Pixels with a channel of radiance, albedo or emission that is infinite or not a number; that channel became 0.
+    /// Pixels with a channel of radiance, albedo or emission that is infinite or not a number. Radiance that is no number is no sample,
+    /// an infinite one becomes 65504, and such an albedo 1.
     pub non_finite: u32,
     /// Pixels with a negative channel there; it became 0.
     pub negative: u32,

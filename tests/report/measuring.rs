@@ -6,7 +6,10 @@ use crate::methods::{CONTROL, DEFAULT, all};
 use crate::record::COLUMNS;
 use crate::suite::{Suite, TURN};
 use crate::summary::Summary;
-use crate::truth::Truth;
+use crate::tracing::Reference;
+use crate::truth::{Truth, move_to};
+use asvgf::scene::{GpuScene, builtin};
+use asvgf::{Camera, Settings};
 
 /// The lamp goes out half way.
 fn suite() -> Suite {
@@ -63,4 +66,33 @@ fn a_sequence_is_measured() {
     let (control, slow) = (error(CONTROL, &mut truth), error("svgf 0.05", &mut truth));
     assert!(control.error() > adaptive.error().map(|error| 3.0 * error));
     assert!(slow.mean(|row| row.ghost) > adaptive.mean(|row| row.ghost).map(|ghost| 10.0 * ghost));
+}
+
+/// Variance of references of so many paths, twice their number of pixels, of a scene that has just moved or long stood there.
+fn noise(gpu: &Gpu, paths: u32, moves: bool) -> f64 {
+    let scene = builtin::scene("cornell", "all").unwrap();
+    let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
+    let pose = scene.pose(Some(0), 0.7);
+    if moves {
+        move_to(gpu, &mut uploaded, &scene.pose(Some(0), 0.6)).unwrap();
+    }
+    move_to(gpu, &mut uploaded, &pose).unwrap();
+    if !moves {
+        move_to(gpu, &mut uploaded, &pose).unwrap();
+    }
+    let seen = scene.camera_view(&pose, scene.camera_node().unwrap()).unwrap();
+    let camera = Camera { eye: seen.eye, target: seen.target, up: seen.up, fov_y: seen.fov_y, jitter: [0.0; 2] };
+    let mut reference = Reference::new(gpu, [32, 18], &Settings::adaptive()).unwrap();
+    let mut image = || reference.converge(&uploaded, camera, paths, |_| {}).unwrap();
+    let (a, b) = (image(), image());
+    a.as_flattened().iter().zip(b.as_flattened()).map(|(a, b)| f64::from(a - b).powi(2)).sum()
+}
+
+#[test]
+fn a_reference_of_a_moving_scene_has_the_noise_of_all_its_paths() {
+    let gpu = Gpu::new().unwrap();
+    let [few, many, rested] = [(16, true), (256, true), (256, false)].map(|(paths, moves)| noise(&gpu, paths, moves));
+    println!("squared differences: {few:.3} of 16 paths, {many:.3} of 256, {rested:.3} of 256 at rest");
+    assert!((8.0..32.0).contains(&(few / many)), "16 times as many paths, {} times less variance", few / many);
+    assert_eq!(many, rested, "it does not matter whether the scene has just moved");
 }

@@ -109,7 +109,7 @@ fn light_of_another_kind_begins_anew() {
             let settings = Settings { filter, ..Settings::adaptive() };
             let (mut denoiser, mut fresh) = (denoiser(settings.clone()), denoiser(settings));
             let target = target();
-            let mut frame = |denoiser: &mut Denoiser, frame: &Recorded, with: bool| {
+            let frame = |denoiser: &mut Denoiser, frame: &Recorded, with: bool| {
                 let textured: Vec<Rgb> = frame.light.iter().zip(&frame.albedo).map(|(l, a)| product(*l, *a)).collect();
                 let (host, radiance) = (Uploaded::new(gpu(), frame), upload(gpu(), SIZE, &textured));
                 gpu().submit(|encoder| {
