@@ -79,8 +79,8 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     bar.finish_and_clear();
     if let Some(frame) = denoised.repeated {
         eprintln!(
-            "note: frame {frame} has the noise of the frame before, to the last bit, wherever nothing moves: from there on each \
-             frame is denoised by itself; let the renderer take another seed in each frame, and averages over time are possible"
+            "note: frames before {frame} are the same, to the last bit, wherever nothing moves: frames are denoised by themselves \
+             from there on, as long as that is so; let the renderer take another seed in each, and averages over time are possible"
         );
     }
     say(&times::table(&denoised.times, None, sequence.size, &gpu));

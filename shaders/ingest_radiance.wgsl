@@ -22,12 +22,14 @@
 #endif
 
 @group(0) @binding(1) var radiance_out: texture_storage_2d<rg32uint, write>;
+#ifdef RESHADE
+@group(0) @binding(4) var samples: texture_2d<u32>;
+#endif
 #ifdef ALBEDO
 @group(0) @binding(2) var albedo_out: texture_storage_2d<rgba16float, write>;
 #ifdef MODULATED
 @group(0) @binding(3) var guide: texture_2d<u32>;
 #ifdef RESHADE
-@group(0) @binding(4) var samples: texture_2d<u32>;
 @group(0) @binding(5) var albedo_previous: texture_2d<f32>;
 #endif
 #endif
@@ -44,19 +46,20 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var divisor = vec3(1.0);
 #ifdef RESHADE
-    var comparable = true;
+    // What was shaded here is the surface that another pixel saw in the last frame. If this frame's light turns out to be of another
+    // kind than the last one's, there is nothing to compare it with.
+    let record = textureLoad(samples, vec2<i32>(stratum_of(id.xy)), 0);
+    let repeats = is_sample_pixel(record, id.xy);
+    let comparable = !repeats || frame.continued != 0u;
 #endif
 #ifdef ALBEDO
 #ifdef MODULATED
     let a = host_albedo(pixel, textureLoad(guide, pixel, 0).y != 0u);
     divisor = a;
 #ifdef RESHADE
-    // What was shaded here is the surface that another pixel saw in the last frame: its albedo is the one to divide by.
-    let record = textureLoad(samples, vec2<i32>(stratum_of(id.xy)), 0);
-    if is_sample_pixel(record, id.xy) {
+    // That surface's albedo is the one to divide by.
+    if repeats {
         divisor = max(textureLoad(albedo_previous, previous_pixel(record), 0).xyz, vec3(1e-3));
-        // A host that hands in an albedo for the first time has none of the last frame: then there is nothing to divide by.
-        comparable = frame.continued != 0u;
     }
 #endif
 #else

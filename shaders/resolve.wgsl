@@ -3,7 +3,7 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::packing::unpack_rgb
 #ifdef ACCUMULATE
-#import asvgf::packing::is_missing
+#import asvgf::packing::is_sample
 #endif
 #ifndef UNFILTERED
 #import asvgf::history::filtered_color
@@ -106,12 +106,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #ifdef ACCUMULATE
     // What is missing is no sample of the mean.
-    var sum = select(vec4(result, 1.0), vec4(0.0), is_missing(arrived));
+    var sum = select(vec4(0.0), vec4(result, 1.0), is_sample(arrived));
     if frame.continued != 0u {
         sum += textureLoad(sum_previous, pixel, 0);
     }
     textureStore(sum_out, pixel, sum);
-    result = sum.xyz / max(sum.w, 1.0);
+    // Where there was none yet, what is left of it: the emission, or what is infinite.
+    result = select(result, sum.xyz / max(sum.w, 1.0), sum.w > 0.0);
 #endif
     textureStore(target_out, pixel, vec4(min(result, vec3(LIMIT)), 1.0));
 }

@@ -296,9 +296,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
 #endif
 #ifdef MISSING_SAMPLES
-        // The history goes on unchanged, unless λ has left nothing of it.
+        // The history goes on unchanged, unless λ has left nothing of it. An infinite sample alone is a firefly; with each, the history
+        // is worth half as much, so that a sun is shown in the end.
+        let trusted = kept * select(0.5, 1.0, is_missing(arrived));
         alpha = select(0.0, alpha, sampled);
-        length = select(select(0.0, kept, kept >= 1.0), length, sampled);
+        length = select(select(0.0, max(trusted, 1.0), trusted > 0.5), length, sampled);
 #endif
         alpha = clamp(alpha, 0.0, 1.0);
         color = before + alpha * (sample - before);
@@ -307,6 +309,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         mean = mean_before + alpha * deviation;
         variance = (1.0 - alpha) * (variance_before + alpha * deviation * deviation);
     }
+#ifdef MISSING_SAMPLES
+    // An infinite sample without a history is kept as a colour of length 0, to be shown.
+    let shown = length <= 0.0 && !is_missing(arrived);
+    color = select(color, sample, shown);
+    mean = select(mean, l, shown);
+    variance = select(variance, 0.0, shown);
+#endif
     color = max(color, vec3(0.0));
 #ifdef FEEDBACK
     textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(color), seen), 0u, 0u));
@@ -314,8 +323,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     let packed = pack_history(color, variance, length, rounding(id.xy, frame.index));
 #ifdef MISSING_SAMPLES
-    // An infinite sample without a history is kept as a colour of length 0, to be shown.
-    let kept = seen && (length > 0.0 || history.weight <= 0.0 && !is_missing(arrived));
+    let kept = seen && (length > 0.0 || shown);
 #else
     let kept = seen;
 #endif

@@ -110,7 +110,7 @@ pub(crate) enum Source {
     Scene(Arc<Snapshot>, TracerSettings),
 }
 
-/// What is in the light that a host's history holds: of another kind, it would be multiplied by textures twice, or never.
+/// What a host's history contains. Mixing kinds would multiply textures twice, or never.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Light {
     pub textures: bool,

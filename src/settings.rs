@@ -107,8 +107,7 @@ pub struct FilterSettings {
     /// Least weight of a new frame, 0…1. A history is then worth (2 − α)/α samples at most. Higher: noisier, but what the gradient misses is forgotten sooner. Lower: smoother,
     /// and slower to forget. With [`Gradient::Off`] this is *the* α of the moving average.
     pub alpha: f32,
-    /// Longest history in samples that it is worth, 1…32768: the weight of a new frame is 1/n until n gets here. Higher: smoother
-    /// still images.
+    /// Longest history, 1…32768: the weight of a new frame is 1/n until n gets here, and stays so. Higher: smoother still images.
     pub max_history: f32,
     /// k in n ← n·(1 − λ)ᵏ + 1, ≥ 0: how fast a history length falls with the gradient λ. Higher: less lag, more noise after
     /// a change. 0 never shortens.
@@ -296,10 +295,12 @@ pub enum Kernel {
 #[cfg(feature = "path-tracer")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TracerSettings {
-    /// Paths per pixel and frame, 1…65536. Higher: less noise, proportionally slower. Many are traced in several dispatches, none of
-    /// which is taken for hung.
+    /// Paths per pixel and frame, 1…65536. Higher: less noise, proportionally slower. Many are traced in several dispatches, as one
+    /// might be taken for hung. Systems that time what is submitted, not dispatches, need a host that submits in between:
+    /// [`Denoiser::render_stepwise`](crate::Denoiser::render_stepwise).
     pub samples: u32,
-    /// Reflections after the first surface; 0 is direct light only. Higher: brighter corners, slower.
+    /// Reflections after the first surface; 0 is direct light only. Higher: brighter corners, slower. A path is never divided among
+    /// dispatches: some hundred bounces without roulette may be ended by the driver, and are then missing.
     pub bounces: u32,
     /// Bounce from which Russian roulette may end a path. Higher: less noise, slower.
     pub roulette: u32,

@@ -28,7 +28,7 @@ impl Export {
             let pixels = match film.numbers(view) {
                 Ok(pixels) => pixels,
                 // Nothing changed: no path was repeated.
-                Err(Error::NoView { .. }) if self.layers.is_some() && expected => {
+                Err(Error::NoView { .. }) if self.layers.is_some() && expected && layer.is_of_pairs() => {
                     vec![[-1.0; 3]; (width * height) as usize]
                 }
                 // Nothing emits, nothing moves by itself, or α does not adapt.

@@ -13,8 +13,25 @@ use asvgf::{Error, Gradient, Lambda, Pairs, Shading, Surfaces};
 pub struct Denoised {
     /// Of each frame.
     pub times: Vec<PassTimes>,
-    /// The first frame with the noise of the one before: from there on, each is denoised by itself.
+    /// The first frame that was denoised by itself, as it had the noise of the one before.
     pub repeated: Option<u32>,
+}
+
+/// Whether a renderer takes the same random numbers in each frame, as those with a fixed seed do. One frame that is held tells
+/// nothing; two in a row do, until two in a row differ: a light may change in between.
+#[derive(Default)]
+struct FixedSeed {
+    fixed: bool,
+    same: u32,
+    other: u32,
+}
+
+impl FixedSeed {
+    fn observe(&mut self, repeats: bool) -> bool {
+        (self.same, self.other) = if repeats { (self.same + 1, 0) } else { (0, self.other + 1) };
+        self.fixed = if self.fixed { self.other < 2 } else { self.same >= 2 };
+        self.fixed
+    }
 }
 
 /// Denoises a sequence, calling back after each frame.
@@ -24,16 +41,15 @@ pub fn denoise(
     mut done: impl FnMut(u32, &mut Film<'_>) -> Result<(), Box<dyn std::error::Error>>,
 ) -> Result<Denoised, Box<dyn std::error::Error>> {
     let mut denoised = Denoised { times: Vec::new(), repeated: None };
-    let mut last: Option<Pixels> = None;
+    let (mut last, mut seed) = (None::<Pixels>, FixedSeed::default());
     for frame in sequence.first..=sequence.last {
         let cameras = [frame, frame.saturating_sub(1).max(sequence.first)].map(|frame| sequence.camera(frame));
         let pixels = sequence.read(frame)?;
         let views = Views::new(film.gpu, sequence.size, &pixels, cameras);
-        if last.is_some_and(|last| repeats_noise(&last, &pixels, sequence.size[0], cameras)) {
-            denoised.repeated.get_or_insert(frame);
-        }
+        let repeats = last.is_some_and(|last| repeats_noise(&last, &pixels, sequence.size[0], cameras));
         // Such frames are one sample, however many there are: an average of them is no better, and looks as if it were.
-        if denoised.repeated.is_some() {
+        if seed.observe(repeats) {
+            denoised.repeated.get_or_insert(frame);
             film.denoiser.reset();
         }
         denoised.times.push(expose(film, &views, cameras[0], frame, sequence.in_place)?);
@@ -93,8 +109,9 @@ impl Views {
     /// Uploads a frame. Where there is no motion, that of points at rest between the last camera and this one is taken.
     fn new(gpu: &Gpu, size: [u32; 2], pixels: &Pixels, cameras: [Camera; 2]) -> Self {
         let mut views = Layer::ALL.map(|layer| pixels.get(layer).map(|samples| upload(gpu, size, layer, samples)));
-        let depth = depths(pixels, size);
+        let (depth, albedo) = surfaces(pixels, size);
         views[Layer::Depth as usize] = Some(upload(gpu, size, Layer::Depth, &depth));
+        views[Layer::Albedo as usize] = albedo.map(|albedo| upload(gpu, size, Layer::Albedo, &albedo));
         let given = views[Layer::Motion as usize].clone();
         let motion = given.unwrap_or_else(|| upload(gpu, size, Layer::Motion, &motion(size, &depth, cameras)));
         Self { views: views.into(), motion }
@@ -134,11 +151,15 @@ fn expose(film: &mut Film<'_>, views: &Views, camera: Camera, index: u32, in_pla
     })
 }
 
-/// The depths of what is to be filtered. A light that reflects nothing is not: its zeros would darken what lies beside it.
-fn depths(pixels: &Pixels, [width, height]: [u32; 2]) -> Vec<f32> {
+/// The depths and albedos of what is to be filtered. A light that reflects nothing is not: its zeros would darken what lies beside
+/// it. What glows and is lit although its albedo is 0, as a mirror is where that is the diffuse one, is filtered undivided.
+fn surfaces(pixels: &Pixels, [width, height]: [u32; 2]) -> (Vec<f32>, Option<Vec<f32>>) {
     let mut depths = pixels.get(Layer::Depth).unwrap_or_default().to_vec();
     let layers = (pixels.get(Layer::Albedo), pixels.get(Layer::Emission), pixels.get(Layer::Color));
-    let (Some(albedo), Some(emission), Some(color)) = layers else { return depths };
+    let (Some(albedo), Some(emission), Some(color)) = layers else {
+        return (depths, layers.0.map(<[f32]>::to_vec));
+    };
+    let mut albedos = albedo.to_vec();
     let black = |i: usize| albedo[3 * i..3 * i + 3] == [0.0; 3];
     let sum = |image: &[f32], i: usize| image[3 * i..3 * i + 3].iter().sum::<f32>();
     for i in (0..depths.len()).filter(|&i| black(i) && sum(emission, i) != 0.0) {
@@ -152,12 +173,13 @@ fn depths(pixels: &Pixels, [width, height]: [u32; 2]) -> Vec<f32> {
                 emitted += sum(emission, j);
             }
         }
-        // A mirror that glows faintly, in a renderer that writes the diffuse albedo, is lit all the same.
         if light <= REFLECTED * emitted {
             depths[i] = 0.0;
+        } else {
+            albedos[3 * i..3 * i + 3].fill(1.0);
         }
     }
-    depths
+    (depths, Some(albedos))
 }
 
 /// Pixels to each side.

@@ -50,8 +50,7 @@ fn clean(color: vec3<f32>) -> vec3<f32> {
 
 #ifdef ALBEDO
 // What the filtered radiance is multiplied with; `hit` where there is a surface. An albedo that is no number is unknown, and
-// divides by nothing. Nor does one of 0: what is seen there all the same comes by ways that this albedo does not tell of (a mirror
-// in a renderer that writes the diffuse albedo), and would be taken for a thousand times as bright as what is around.
+// divides by nothing.
 fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
     let given = textureLoad(albedo, pixel, 0).xyz;
     let finite = are_finite(given);
@@ -61,7 +60,7 @@ fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
     // Below the limit of f16.
     var a = select(vec3(1.0), min(sanitize(given), vec3(65472.0)), finite);
 #ifdef MODULATED
-    a = select(vec3(1.0), max(a, vec3(1e-3)), hit && any(a > vec3(0.0)));
+    a = select(vec3(1.0), max(a, vec3(1e-3)), hit);
 #endif
     return round_to_f16(a);
 }

@@ -10,7 +10,7 @@ use wgpu::Device;
 
 /// The compiled shaders of a device. A clone is another handle to the same: hand it to further denoisers
 /// ([`DenoiserDescriptor::pipelines`](crate::DenoiserDescriptor::pipelines)), and each shader is compiled once. While one is being
-/// compiled, only who needs that very shader waits.
+/// compiled, only callers that need that shader wait.
 #[derive(Clone)]
 pub struct Pipelines {
     device: Device,

@@ -52,12 +52,13 @@ pub struct Surfaces<'a> {
 pub struct Shading<'a> {
     /// Noisy linear radiance, Rec. 709, ≥ 0 (what is above 10¹⁵ counts as that): `rgba16float`, `rgba32float`, `rg11b10ufloat` or
     /// `rgb9e5ufloat`. Where nothing was hit it is shown as it is. It may be the target too (it is copied then). NaN is no sample: the
-    /// pixel's history goes on, or it is filled from its surface. +∞ is shown as 65504 where there is no history, and enters no average.
+    /// pixel's history goes on, or it is filled from its surface, up to 27 pixels away (black without spatial iterations). +∞ enters no average: it halves the pixel's history, and is shown as 65504 where
+    /// there is none left.
     /// Take other random numbers in each frame: the same noise cannot be averaged.
     pub radiance: &'a TextureView,
     /// Linear reflectance at the visible surface, 0…1: `rgba8unorm` and `bgra8unorm` (`-srgb` too), `rgb10a2unorm`, and the formats
     /// of `radiance`. Radiance is divided by it before filtering (at least by 10⁻³) and the result multiplied, so that textures stay
-    /// sharp. An albedo of 0, or one that is no number, divides by nothing. Where there is none, radiance is filtered with its textures;
+    /// sharp. An albedo that is no number divides by nothing. Where there is none, radiance is filtered with its textures;
     /// a frame with an albedo after one without starts a new history.
     pub albedo: Option<&'a TextureView>,
     /// Linear radiance that the visible surface or the sky emits towards the eye, in the formats of `radiance`. It bypasses the

@@ -3,16 +3,12 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] = &[Feature::Albedo, Feature::DirectEmission, Feature::Modulated, Feature::Diagnostics];
+const FEATURES: &[Feature] =
+    &[Feature::Albedo, Feature::DirectEmission, Feature::Modulated, Feature::Diagnostics, Feature::Reshade];
 
 pub(crate) fn step(features: Features) -> Step {
     use Feature::{Albedo, DirectEmission, Modulated, Reshade};
-    let mut known = Features::of(FEATURES);
-    // Which albedo a repeated path has matters only where it is divided by.
-    if features.has(Albedo) && features.has(Modulated) {
-        known = known.with(Reshade);
-    }
-    let features = features.and(known);
+    let features = features.and(Features::of(FEATURES));
     Step {
         pass: Pass::IngestRadiance,
         features,
@@ -26,7 +22,8 @@ pub(crate) fn step(features: Features) -> Step {
                 ("emission", Slot::Host, &[DirectEmission]),
                 ("guide", Slot::Now(Image::Guide), &[Albedo, Modulated]),
                 ("samples", Slot::Now(Image::Samples), &[Reshade]),
-                ("albedo_previous", Slot::Before(Image::Albedo), &[Reshade]),
+                // Which albedo a repeated path has matters only where it is divided by.
+                ("albedo_previous", Slot::Before(Image::Albedo), &[Reshade, Albedo, Modulated]),
                 ("radiance_out", Slot::Now(Image::Radiance), &[]),
                 ("albedo_out", Slot::Now(Image::Albedo), &[Albedo]),
                 ("emission_out", Slot::Now(Image::Emission), &[DirectEmission]),

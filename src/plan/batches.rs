@@ -15,7 +15,7 @@ const MOST_ROUNDS: u32 = 8192;
 /// somewhere between 64 and 256 on (docs/performance.md).
 const ROUNDS_PER_LEVEL: u32 = 4;
 
-/// Bounces that Russian roulette leaves to few: it ends at least 1 path in 20 at each.
+/// Bounces that a path may be expected to go on for once Russian roulette has begun, which ends at least 1 in 20 at each.
 const ROULETTE_REACH: u32 = 20;
 
 /// A frame's paths, divided among dispatches.

@@ -3,8 +3,8 @@
 use super::{Matrix, Pose};
 use wgpu::{BindingResource, Buffer};
 
-/// What a denoiser remembers of the scene that it rendered last, to find out what has moved since: the scene itself knows no last
-/// frame, as several denoisers may show it, each in its own time.
+/// The scene as a denoiser rendered it last, from which it finds out what has moved since. The scene itself knows no last frame, because
+/// several denoisers may show it, each in its own time.
 #[derive(Debug)]
 pub(crate) struct Snapshot {
     /// The scene's number in this process.
@@ -17,7 +17,7 @@ pub(crate) struct Snapshot {
     pub analytic_lights: Buffer,
 }
 
-/// What of a pose paths can see. A camera that moves changes nothing here.
+/// The part of a pose that paths can see. A camera that moves changes nothing here.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Visible {
     placed: Vec<Matrix>,

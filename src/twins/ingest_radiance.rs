@@ -86,8 +86,7 @@ fn check(features: &[Feature], continued: bool) {
                 let texel = written["albedo_out"][i];
                 let found = [texel[0] & 0xffff, texel[0] >> 16, texel[1] & 0xffff].map(half);
                 for c in 0..3 {
-                    let reflects = albedo[i].iter().any(|&x| known(x) > 0.0);
-                    let a = match (modulated, guide[i][1] != 0 && reflects) {
+                    let a = match (modulated, guide[i][1] != 0) {
                         (false, _) => known(albedo[i][c]),
                         (true, true) => known(albedo[i][c]).max(1e-3),
                         (true, false) => 1.0,
@@ -134,4 +133,6 @@ fn every_kind_of_radiance() {
     check(&[Modulated, Albedo, DirectEmission], true);
     check(&[Modulated, Albedo, DirectEmission, Reshade], true);
     check(&[Modulated, Albedo, DirectEmission, Reshade], false);
+    check(&[Modulated, DirectEmission, Reshade], true);
+    check(&[Reshade], false);
 }
