@@ -93,3 +93,34 @@ fn the_modes_without_a_filter_show_the_samples_and_their_mean() {
     let moving = replay(&mut denoiser(Settings { mode: Mode::Reference, ..Settings::adaptive() }), &frames[..3]);
     assert_eq!(moving, noisy, "the camera moves, so each frame is a mean of one");
 }
+
+/// Ink that reflects nothing, between paper that does, borrows no light from it.
+#[test]
+fn black_texels_stay_black() {
+    let frames = recorded(Settings::adaptive());
+    let (mut printed, mut blank) = (denoiser(Settings::adaptive()), denoiser(Settings::adaptive()));
+    let is_ink = |i: usize| (i % SIZE[0] as usize + i / SIZE[0] as usize).is_multiple_of(2);
+    for frame in &frames[..6] {
+        let mut ink = frame.clone();
+        (0..ink.albedo.len()).filter(|&i| is_ink(i)).for_each(|i| ink.albedo[i] = [0.0; 3]);
+        let images = [(&mut printed, &ink), (&mut blank, frame)].map(|(denoiser, frame)| {
+            let (host, target) = (Uploaded::new(gpu(), frame), target());
+            let full: Vec<Rgb> =
+                frame.light.iter().zip(&frame.albedo).map(|(l, a)| [0, 1, 2].map(|c| l[c] * a[c])).collect();
+            let radiance = upload(gpu(), SIZE, &full);
+            gpu().submit(|encoder| {
+                denoiser.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
+                let shading = Shading { radiance: &radiance, demodulated: false, ..host.shading(&target) };
+                denoiser.denoise(&gpu().device, encoder, &shading).unwrap();
+            });
+            colors(&target)
+        });
+        let mean = |image: &[Rgb], ink: bool| {
+            let some: Vec<Rgb> = (0..image.len()).filter(|&i| is_ink(i) == ink).map(|i| image[i]).collect();
+            crate::common::statistics::mean(&some)
+        };
+        let (black, paper, expected) = (mean(&images[0], true), mean(&images[0], false), mean(&images[1], false));
+        println!("frame {}: ink {black:.5}, paper {paper:.4}, without ink {expected:.4}", frame.index);
+        assert!(black < 2e-3 * expected, "frame {}: ink of {black} on paper of {paper}", frame.index);
+    }
+}
