@@ -330,3 +330,23 @@ pub enum Sampling {
     /// Scattered rays alone.
     Scattered,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constant_alpha_may_be_anything_from_0_to_1() {
+        for alpha in [0.0, 1e-30, 1e-6, 1.0 / 32768.0, 0.05, 0.5, 1.0] {
+            let settings = Settings::adaptive().constant(alpha);
+            settings.check().unwrap_or_else(|e| panic!("{alpha}: {e}"));
+            // Long enough for what such an average is worth, (2 − α)/α, as far as a history goes.
+            let worth = (2.0 / alpha - 1.0).min(LONGEST_HISTORY);
+            assert!(alpha == 0.0 || settings.filter.max_history >= worth, "{alpha}");
+        }
+        for alpha in [-0.1, 1.1, f32::NAN] {
+            let error = Settings::adaptive().constant(alpha).check().unwrap_err().to_string();
+            assert!(error.contains("filter.alpha"), "{alpha}: {error}");
+        }
+    }
+}
