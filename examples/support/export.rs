@@ -24,20 +24,19 @@ impl Export {
         let mut found = Vec::new();
         for layer in Layer::ALL {
             let Some((view, value)) = source(layer) else { continue };
-            let expected = self.layers.as_ref().is_none_or(|layers| layers.contains(&layer));
+            if self.layers.as_ref().is_some_and(|layers| !layers.contains(&layer)) {
+                continue;
+            }
             let pixels = match film.numbers(view) {
                 Ok(pixels) => pixels,
                 // Nothing changed: no path was repeated.
-                Err(Error::NoView { .. }) if self.layers.is_some() && expected && layer.is_of_pairs() => {
+                Err(Error::NoView { .. }) if self.layers.is_some() && layer.is_of_pairs() => {
                     vec![[-1.0; 3]; (width * height) as usize]
                 }
                 // Nothing emits, nothing moves by itself, or α does not adapt.
                 Err(Error::NoView { .. }) => continue,
                 Err(error) => return Err(error.into()),
             };
-            if !expected {
-                continue;
-            }
             found.push(layer);
             for (i, name) in layer.channels().into_iter().enumerate() {
                 image.channels.push((name, pixels.iter().map(|&pixel| value(pixel)[i]).collect()));

@@ -131,8 +131,8 @@ fn effective_pairs(iterations: u32) -> f32 {
 }
 
 #[cfg(test)]
-mod effective_pairs_tests {
-    use super::effective_pairs;
+mod tests {
+    use super::*;
 
     /// Σw² of the tent filter, iteration by iteration, in one dimension.
     fn sum_of_squares(iterations: u32) -> f64 {
@@ -160,15 +160,11 @@ mod effective_pairs_tests {
             assert!((found / expected - 1.0).abs() < 1e-5, "{iterations}: {found}, not {expected}");
         }
     }
-}
 
-#[cfg(all(test, feature = "path-tracer"))]
-mod tests {
-    use super::*;
-    use crate::twins::layout::{assert_layout, fields};
-
+    #[cfg(feature = "path-tracer")]
     #[test]
     fn the_frame_lies_where_the_shader_reads_it() {
+        use crate::twins::layout::{assert_layout, fields};
         let fields = fields!(FrameUniform: size, strata, camera, previous, index, seed, continued, samples, batch, first_sample, bounces, roulette,
             alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
             ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block, converged,

@@ -134,9 +134,11 @@ impl Denoiser {
         self.textures.place(device, self.size, &plan, (0, steps.len()), most.images());
         let uniform = self.frame_uniform(device, &moment, &[]);
         let counts = self.counters.as_ref().map(|_| Counters::begin(device));
-        // If the light comes in the target's texture, it is copied: no frame has more passes.
-        let passes = Plan::hosted(&HostTraits { in_target: true, ..traits }, &self.settings, changes, most_bits).steps;
-        let mut queries = self.timing.as_ref().map(|t| t.begin(device, index, passes.len()));
+        let mut queries = self.timing.as_ref().map(|timing| {
+            // If the light comes in the target's texture, it is copied: no frame has more passes.
+            let copied = HostTraits { in_target: true, ..traits };
+            timing.begin(device, index, Plan::hosted(&copied, &self.settings, changes, most_bits).steps.len())
+        });
         let host = |name: &str| surfaces.resource(name);
         let resources = Resources { counts: counts.as_ref(), ..Resources::new(&host, &uniform) };
         self.record(device, encoder, steps, &resources, &mut queries, &mut after)?;

@@ -248,8 +248,7 @@ impl GpuScene {
             static NEXT: AtomicU64 = AtomicU64::new(1);
             NEXT.fetch_add(1, Ordering::Relaxed)
         };
-        let nodes = instances.iter().filter_map(|i| i.node).chain(punctual.iter().map(|p| p.node));
-        let visible = Visible::new(&pose, nodes);
+        let visible = visible(&instances, &punctual, &pose);
         let mut this = Self {
             id,
             traits,
@@ -287,8 +286,7 @@ impl GpuScene {
             triangles: geometry.rows.len(),
             few: traits.few_triangles.then(|| geometry.rows.iter().map(|row| row.map(corner)).collect()),
         };
-        let visible = this.visible();
-        this.snapshot = this.take_snapshot(device, visible);
+        this.snapshot = this.take_snapshot(device, this.snapshot.visible.clone());
         this.buffers.lights = folded("lights", folded::texels(&this.light_table));
         this.upload_facets(device);
         Ok(this)
@@ -314,7 +312,7 @@ impl GpuScene {
             return wrong("emission or intensity".into(), "is negative or not finite");
         }
         self.pose = pose.clone();
-        let (before, now) = (self.snapshot.clone(), self.visible());
+        let (before, now) = (self.snapshot.clone(), visible(&self.instances, &self.punctual, pose));
         if now == before.visible {
             return Ok(());
         }
@@ -412,12 +410,6 @@ impl GpuScene {
         self.buffers.facet_owners = uniform("owners of facets", bytemuck::cast_slice(&owners));
     }
 
-    /// What paths see of the pose: the nodes where there is something.
-    fn visible(&self) -> Visible {
-        let nodes = self.instances.iter().filter_map(|i| i.node).chain(self.punctual.iter().map(|p| p.node));
-        Visible::new(&self.pose, nodes)
-    }
-
     /// Puts the lights where they are in this pose, and keeps it for later frames.
     fn take_snapshot(&mut self, device: &Device, visible: Visible) -> Arc<Snapshot> {
         let rows = instances::rows_of(&self.instances, &self.pose);
@@ -442,6 +434,11 @@ impl GpuScene {
         analytic.iter_mut().for_each(|light| light.count = count);
         storage(device, "analytic lights", &analytic, size_of::<AnalyticLight>())
     }
+}
+
+/// The part of a pose that paths see: the nodes where there is something.
+fn visible(instances: &[Instance], punctual: &[Punctual], pose: &Pose) -> Visible {
+    Visible::new(pose, instances.iter().filter_map(|i| i.node).chain(punctual.iter().map(|p| p.node)))
 }
 
 /// The top level and the instances' records in a pose, and the top level's depth. Empty where there is one level. The header
