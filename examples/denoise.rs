@@ -94,7 +94,7 @@ fn source(options: &Options, sequence: &Sequence) -> Gradient {
         Some(_) => Gradient::Off,
         None if sequence.has(Layer::GradientCurrent) => Gradient::Pairs,
         None if sequence.has(Layer::Lambda) => Gradient::Lambda,
-        None => Gradient::Off,
+        None => Gradient::Statistics,
     }
 }
 
@@ -118,9 +118,6 @@ fn summary(options: &Options, sequence: &Sequence, gradient: Gradient) -> String
     let absent = list(false);
     if !absent.is_empty() {
         out += &format!("left out, as the files do not have it: {absent}\n");
-    }
-    if gradient == Gradient::Off && options.constant.is_none() {
-        out += "note: without gradient or lambda alpha does not adapt, and changes of light lag; try --alpha constant:0.2\n";
     }
     out += match sequence.eye {
         Eye::Given => "",

@@ -8,9 +8,10 @@
 // sample makes of n: 1/n' = (1 − α)²/n + α². That is n + 1 for α = 1/(n + 1), and tends to (2 − α)/α for a constant α: counted
 // in frames instead, the spatial filter would take the noise of a constant α for gone.
 
-#import asvgf::frame::{frame, inside}
+#import asvgf::frame::frame
 #import asvgf::color::luminance
-#import asvgf::history::{pack_history, history_color, history_variance, history_length, rounding}
+#import asvgf::history::{pack_history, rounding}
+#import asvgf::history_taps::History
 #import asvgf::packing::{unpack_rgb, unpack_normal}
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::{is_missing, is_sample}
@@ -21,12 +22,15 @@
 #ifdef HOST_LIGHT
 #import asvgf::host_light::host_sample
 #endif
-#ifndef STILL
+#ifdef STILL
+#import asvgf::history_taps::own_history
+#else
+#import asvgf::history_taps::{Taps, add_tap, bilinear_taps, corner_of, mean_of}
 #import asvgf::packing::unpack_motion
 #ifdef HOST_MOTION
 #import asvgf::host_motion::host_motion
 #endif
-#import asvgf::reproject::{Origin, origin_of, same_surface}
+#import asvgf::reproject::{Origin, origin_of}
 #endif
 #ifdef EXTERNAL_LAMBDA
 #import asvgf::color::is_finite
@@ -44,13 +48,11 @@
 #endif
 #ifdef OBJECTS
 @group(0) @binding(4) var object: texture_2d<u32>;
-@group(0) @binding(5) var object_previous: texture_2d<u32>;
 #endif
 #ifndef HOST_LIGHT
 @group(0) @binding(6) var radiance: texture_2d<u32>;
 #endif
 #ifdef FEEDBACK
-@group(0) @binding(8) var feedback_previous: texture_2d<u32>;
 @group(0) @binding(9) var feedback_out: texture_storage_2d<rg32uint, write>;
 #endif
 #ifdef EXTERNAL_LAMBDA
@@ -62,112 +64,10 @@
 @group(0) @binding(14) var weights_out: texture_storage_2d<rg32float, write>;
 #endif
 
-// What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had.
-#ifdef STORAGE_READS
-@group(0) @binding(7) var history_previous: texture_storage_2d<rg32uint, read>;
-
-fn history_at(tap: vec2<i32>) -> vec2<u32> {
-    return textureLoad(history_previous, tap).xy;
-}
 #ifndef STILL
-@group(0) @binding(2) var guide_previous: texture_storage_2d<rg32uint, read>;
-
-fn guide_at(tap: vec2<i32>) -> vec2<u32> {
-    return textureLoad(guide_previous, tap).xy;
-}
-#endif
-#else
-@group(0) @binding(7) var history_previous: texture_2d<u32>;
-#ifndef STILL
-@group(0) @binding(2) var guide_previous: texture_2d<u32>;
-
-fn guide_at(tap: vec2<i32>) -> vec2<u32> {
-    return textureLoad(guide_previous, tap, 0).xy;
-}
-#endif
-
-fn history_at(tap: vec2<i32>) -> vec2<u32> {
-    return textureLoad(history_previous, tap, 0).xy;
-}
-#endif
-
-struct History {
-    color: vec3<f32>,
-    mean: f32,
-    variance: f32,
-    length: f32,
-    // Sum of the weights of the taps that were accepted.
-    weight: f32,
-}
-
-#ifdef STILL
-// The pixel's own, in an image that stands still.
-fn history_of(pixel: vec2<i32>) -> History {
-    let h = history_at(pixel);
-    let length = history_length(h);
-#ifdef FEEDBACK
-    let color = unpack_rgb(textureLoad(feedback_previous, pixel, 0).xy);
-    let mean = history_color(h).x;
-#else
-    let color = history_color(h);
-    let mean = luminance(color);
-#endif
-    return History(color, mean, history_variance(h), length, select(0.0, 1.0, length > 0.0));
-}
-#else
-struct Taps {
-    color: vec3<f32>,
-    mean: f32,
-    square: f32,
-    variance: f32,
-    length: f32,
-    weight: f32,
-#ifdef MISSING_SAMPLES
-    // Sum of the weights of all taps on the surface, also of those that have seen no sample yet.
-    surface: f32,
-#endif
-}
-
-fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear: f32) {
-    let tap = clamp(place, vec2(0), vec2<i32>(frame.size) - 1);
-#ifdef OBJECTS
-    let there = textureLoad(object_previous, tap, 0).x;
-#else
-    let there = 0u;
-#endif
-    let valid = bilinear >= 1e-4 && inside(place)
-        && same_surface(origin, tap, guide_at(tap), there);
-    var weight = select(0.0, bilinear, valid);
-    let h = history_at(tap);
-#ifdef MISSING_SAMPLES
-    (*sum).surface += weight;
-    weight = select(0.0, weight, history_length(h) > 0.0);
-#endif
-#ifdef FEEDBACK
-    let color = unpack_rgb(textureLoad(feedback_previous, tap, 0).xy);
-    let mean = history_color(h).x;
-#else
-    let color = history_color(h);
-    let mean = luminance(color);
-#endif
-    (*sum).color += weight * color;
-    (*sum).mean += weight * mean;
-    (*sum).square += weight * mean * mean;
-    (*sum).variance += weight * history_variance(h);
-    (*sum).length += weight * history_length(h);
-    (*sum).weight += weight;
-}
-
 fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> History {
     let point = vec2<f32>(pixel) + m.xy;
-    let corner = floor(point + 1e-4);
-    let f = max(point - corner, vec2(0.0));
-    let base = vec2<i32>(corner);
-    var sum = Taps();
-    add_tap(&sum, origin, base, (1.0 - f.x) * (1.0 - f.y));
-    add_tap(&sum, origin, base + vec2(1, 0), f.x * (1.0 - f.y));
-    add_tap(&sum, origin, base + vec2(0, 1), (1.0 - f.x) * f.y);
-    add_tap(&sum, origin, base + vec2(1, 1), f.x * f.y);
+    var sum = bilinear_taps(origin, point);
     // Where nothing of the surface lies under the 2×2 taps, look one pixel farther. The loop's length depends on that, as a
     // software adapter executes a branch either way, but not a loop.
 #ifdef MISSING_SAMPLES
@@ -180,19 +80,13 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> Hist
     if searched > 0 {
         sum = Taps();
     }
+    let base = corner_of(point);
     for (var i = 0; i < searched; i++) {
         let tap = base + vec2(i & 3, i >> 2u) - 1;
         let d = vec2<f32>(tap) - point;
         add_tap(&sum, origin, tap, exp(-dot(d, d)));
     }
-    if sum.weight <= 0.01 {
-        return History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
-    }
-    let scale = 1.0 / sum.weight;
-    let mean = sum.mean * scale;
-    // The taps' own variances and the spread of their means.
-    let variance = sum.variance * scale + max(sum.square * scale - mean * mean, 0.0);
-    return History(sum.color * scale, mean, variance, sum.length * scale, sum.weight);
+    return mean_of(sum);
 }
 #endif
 
@@ -232,7 +126,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var history = History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
     if frame.continued != 0u {
 #ifdef STILL
-        history = history_of(pixel);
+        history = own_history(pixel);
 #else
 #ifdef HOST_MOTION
         let m = unpack_motion(host_motion(pixel, depth).packed);

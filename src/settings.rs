@@ -170,7 +170,7 @@ pub struct FilterSettings {
 impl Default for FilterSettings {
     fn default() -> Self {
         Self {
-            gradient: Gradient::Reshade,
+            gradient: Gradient::Automatic,
             alpha: 0.02,
             max_history: 64.0,
             history_power: 3.5,
@@ -233,11 +233,18 @@ impl FilterSettings {
 /// Where the temporal gradient, and with it the adaptive α, comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Gradient {
+    /// The best that a frame allows: [`Gradient::Reshade`] where the denoiser traces the paths; of a host's frame [`Gradient::Lambda`]
+    /// or [`Gradient::Pairs`] if it hands in the one or the other, and [`Gradient::Statistics`] else.
+    #[default]
+    Automatic,
     /// One pixel of each 3×3 repeats a path of the last frame, random numbers included, in this frame's scene (Schied et al.
     /// 2018): sees every change of light, shadow and geometry. Costs no extra ray. Where the host renders,
     /// [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) says which pixels and paths.
-    #[default]
     Reshade,
+    /// The mean of the new samples against that of their histories, over 21 to 85 pixels of a surface, less the noise of both: needs
+    /// nothing but the image and its G-buffer. Sees every change that is greater than the noise of some hundred samples, a few frames later
+    /// than repeated paths do where light moves.
+    Statistics,
     /// Deferred Blinn–Phong shading of this and the last frame's lights, without shadows: no ray, no noise, blind to what
     /// blocks the light. Only for the crate's own path tracer, as it needs the scene.
     BlinnPhong,

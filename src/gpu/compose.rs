@@ -20,6 +20,8 @@ const SHARED: &[(&str, &str)] = &[
     ("host_motion", include_str!("../../shaders/shared/host_motion.wgsl")),
     ("host_light", include_str!("../../shaders/shared/host_light.wgsl")),
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
+    ("history_taps", include_str!("../../shaders/shared/history_taps.wgsl")),
+    ("means", include_str!("../../shaders/shared/means.wgsl")),
     ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
     ("change", include_str!("../../shaders/shared/change.wgsl")),

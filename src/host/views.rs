@@ -132,19 +132,30 @@ pub(super) fn shading(
     if settings.mode != Mode::Denoise {
         return Ok(());
     }
+    traits.pairs = given.pairs.is_some();
+    traits.lambda = given.lambda.is_some();
     let missing = |view, setting, remedy| Error::ViewMissing { view, setting, remedy };
     match settings.filter.gradient {
+        Gradient::Automatic => {
+            if let Some(given) = &given.lambda {
+                return lambda(traits, given, size);
+            }
+            match &given.pairs {
+                Some(given) if changes.scene => pairs(traits, given, size),
+                _ => Ok(()),
+            }
+        }
         // Nothing is made of them.
         Gradient::Pairs if !changes.scene => Ok(()),
         Gradient::Pairs => {
-            let none = missing("pairs", "Gradient::Pairs", "fill `Shading::pairs`, or choose Gradient::Reshade or Off");
+            let none = missing("pairs", "Gradient::Pairs", "fill `Shading::pairs`, or choose Gradient::Automatic");
             pairs(traits, given.pairs.as_ref().ok_or(none)?, size)
         }
         Gradient::Lambda => {
-            let none = missing("lambda", "Gradient::Lambda", "fill `Shading::lambda`, or choose Gradient::Off");
+            let none = missing("lambda", "Gradient::Lambda", "fill `Shading::lambda`, or choose Gradient::Automatic");
             lambda(traits, given.lambda.as_ref().ok_or(none)?, size)
         }
-        Gradient::Reshade | Gradient::BlinnPhong | Gradient::Off => Ok(()),
+        Gradient::Reshade | Gradient::Statistics | Gradient::BlinnPhong | Gradient::Off => Ok(()),
     }
 }
 

@@ -6,6 +6,9 @@
 pub(crate) mod atrous;
 pub(crate) mod gradient;
 pub(crate) mod gradient_filter;
+pub(crate) mod gradient_means;
+pub(crate) mod gradient_means_filter;
+pub(crate) mod gradient_of_means;
 pub(crate) mod gradient_pairs;
 pub(crate) mod gradient_pairs_filter;
 pub(crate) mod gradient_sample;
@@ -52,6 +55,12 @@ pub enum Pass {
     Gradient,
     /// The gradient's filter.
     GradientFilter,
+    /// Means of new samples and of their histories, for a gradient without repeated paths.
+    GradientMeans,
+    /// Their filter.
+    GradientMeansFilter,
+    /// Gradient and history ratio of each stratum, from these means.
+    GradientOfMeans,
     /// Reprojection and blending.
     Temporal,
     /// Variance of short histories.
@@ -81,6 +90,9 @@ impl Pass {
             Self::GradientPairsFilter => "gradient_pairs_filter",
             Self::Gradient => "gradient",
             Self::GradientFilter => "gradient_filter",
+            Self::GradientMeans => "gradient_means",
+            Self::GradientMeansFilter => "gradient_means_filter",
+            Self::GradientOfMeans => "gradient_of_means",
             Self::Temporal => "temporal",
             Self::Variance => "variance",
             Self::Atrous => "atrous",
@@ -112,6 +124,9 @@ impl Pass {
             Self::GradientPairsFilter => include_str!("../../shaders/gradient_pairs_filter.wgsl"),
             Self::Gradient => include_str!("../../shaders/gradient.wgsl"),
             Self::GradientFilter => include_str!("../../shaders/gradient_filter.wgsl"),
+            Self::GradientMeans => include_str!("../../shaders/gradient_means.wgsl"),
+            Self::GradientMeansFilter => include_str!("../../shaders/gradient_means_filter.wgsl"),
+            Self::GradientOfMeans => include_str!("../../shaders/gradient_of_means.wgsl"),
             Self::Temporal => include_str!("../../shaders/temporal.wgsl"),
             Self::Variance => include_str!("../../shaders/variance.wgsl"),
             Self::Atrous => include_str!("../../shaders/atrous.wgsl"),
@@ -125,6 +140,20 @@ impl Pass {
 #[cfg(feature = "path-tracer")]
 const GEOMETRY: &[Feature] =
     &[Feature::Instanced, Feature::Textures, Feature::ShadingNormals, Feature::AlphaMask, Feature::FewTriangles];
+
+/// What a host's radiance is freed of where it is read.
+const MODULATION: [Feature; 3] = [Feature::Modulated, Feature::Albedo, Feature::DirectEmission];
+
+/// The features of a pass that reads the motion and the light of `given`, with those that a host's own images need where they are read.
+fn modulation(given: Features, mut features: Features) -> Features {
+    if features.has(Feature::HostMotion) {
+        features = features.or(given.and(Features::of(&[Feature::PreviousDepth])));
+    }
+    if features.has(Feature::HostLight) && given.has(Feature::Modulated) {
+        features = features.or(given.and(Features::of(&MODULATION)));
+    }
+    features
+}
 
 /// The bindings of a list whose features are all present.
 fn bindings<const N: usize>(

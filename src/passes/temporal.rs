@@ -1,6 +1,6 @@
 //! Reprojection and blending, see shaders/temporal.wgsl.
 
-use super::{Pass, bindings};
+use super::{Pass, bindings, modulation};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
 const FEATURES: &[Feature] = &[
@@ -20,9 +20,6 @@ const FEATURES: &[Feature] = &[
     Feature::KeepWeights,
 ];
 
-/// What a host's radiance is freed of where it is read.
-const MODULATION: [Feature; 3] = [Feature::Modulated, Feature::Albedo, Feature::DirectEmission];
-
 /// What finds the surface in the last frame.
 const REPROJECTION: [&str; 4] = ["guide_previous", "motion", "object", "object_previous"];
 
@@ -32,12 +29,7 @@ pub(crate) fn step(given: Features, gradient: Option<Image>) -> Step {
     if features.has(Feature::Still) {
         features = features.without(Feature::Objects).without(Feature::HostMotion);
     }
-    if features.has(Feature::HostMotion) {
-        features = features.or(given.and(Features::of(&[Feature::PreviousDepth])));
-    }
-    if features.has(Feature::HostLight) && given.has(Feature::Modulated) {
-        features = features.or(given.and(Features::of(&MODULATION)));
-    }
+    let features = modulation(given, features);
     // A host's own image, or its copy.
     let source = |direct, image| if features.has(direct) { Slot::Host } else { Slot::Now(image) };
     let gradient = gradient.unwrap_or(Image::Gradient(0));

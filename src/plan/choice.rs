@@ -47,16 +47,26 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
         (Unfiltered, settings.mode != Mode::Denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&rows, [false, traits.views], settings, changes)
+    let source = match settings.filter.gradient {
+        settings::Gradient::Automatic => settings::Gradient::Reshade,
+        asked => asked,
+    };
+    with_filter(&rows, source, [false, traits.views], settings, changes)
 }
 
 /// Of a frame of the host's renderer.
 pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes) -> Vec<Decision> {
     let denoise = settings.mode == Mode::Denoise;
-    let pairs = denoise && settings.filter.gradient == settings::Gradient::Pairs;
-    let lambda = denoise && settings.filter.gradient == settings::Gradient::Lambda;
+    let source = match settings.filter.gradient {
+        settings::Gradient::Automatic if traits.lambda => settings::Gradient::Lambda,
+        settings::Gradient::Automatic if traits.pairs => settings::Gradient::Pairs,
+        settings::Gradient::Automatic => settings::Gradient::Statistics,
+        asked => asked,
+    };
+    let pairs = denoise && source == settings::Gradient::Pairs;
+    let lambda = denoise && source == settings::Gradient::Lambda;
     let modulated = !traits.demodulated && (traits.albedo || traits.emission);
-    let reshade = denoise && settings.filter.gradient == settings::Gradient::Reshade;
+    let reshade = denoise && source == settings::Gradient::Reshade;
     let [copied_motion, copied_light] = why_copies(traits, reshade);
     let rows = [
         (
@@ -84,7 +94,7 @@ pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes)
         (Unfiltered, !denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&rows, [pairs && traits.pairs_in_place, traits.views], settings, changes)
+    with_filter(&rows, source, [pairs && traits.pairs_in_place, traits.views], settings, changes)
 }
 
 /// Why a host's motion is copied, if it is, and why its light.
@@ -99,22 +109,33 @@ fn why_copies(traits: &HostTraits, reshade: bool) -> [Option<&'static str>; 2] {
 }
 
 /// The rows, and what the filter asks for where there is one: of pairs in place, and of frames with views.
-fn with_filter(rows: &[Row], given: [bool; 2], settings: &Settings, changes: Changes) -> Vec<Decision> {
+fn with_filter(
+    rows: &[Row],
+    source: settings::Gradient,
+    given: [bool; 2],
+    settings: &Settings,
+    changes: Changes,
+) -> Vec<Decision> {
     let filter = match settings.mode {
-        Mode::Denoise => filter(&settings.filter, given, changes),
+        Mode::Denoise => filter(&settings.filter, source, given, changes),
         Mode::Noisy | Mode::Reference => Vec::new(),
     };
     rows.iter().chain(&filter).map(|&(feature, on, reasons)| Decision::new(feature, on, reasons)).collect()
 }
 
-fn filter(filter: &FilterSettings, [pairs_in_place, views]: [bool; 2], changes: Changes) -> Vec<Row> {
+fn filter(
+    filter: &FilterSettings,
+    source: settings::Gradient,
+    [pairs_in_place, views]: [bool; 2],
+    changes: Changes,
+) -> Vec<Row> {
     use settings::Gradient as Source;
-    let source = filter.gradient;
-    let strata = matches!(source, Source::Reshade | Source::Pairs | Source::BlinnPhong);
+    let strata = !matches!(source, Source::Lambda | Source::Off);
     // In an unchanged scene a repeated path finds what it found: δ is 0, and nothing has to be measured.
     let gradient = strata && changes.scene;
     let reshade = gradient && source == Source::Reshade;
     let pairs = gradient && source == Source::Pairs;
+    let statistics = gradient && source == Source::Statistics;
     let why_not =
         if strata && !changes.scene { "nothing changed in the scene: the gradient is 0" } else { "no gradient is set" };
     let otherwise = if gradient { "the gradient is measured otherwise" } else { why_not };
@@ -131,17 +152,26 @@ fn filter(filter: &FilterSettings, [pairs_in_place, views]: [bool; 2], changes: 
         (InPlace, reshade || pairs && pairs_in_place, ["repeated paths take a pixel's own sample's place", otherwise]),
         (BlinnPhong, gradient && source == Source::BlinnPhong, ["the gradient is that of analytic shading", otherwise]),
         (Pairs, pairs, ["the gradient comes from the host's pairs", otherwise]),
-        (SignedGradient, gradient && filter.gradient_signed, ["differences may cancel", "differences never cancel"]),
+        (
+            Statistics,
+            statistics,
+            ["the gradient is what new samples differ by from their histories, less the noise", otherwise],
+        ),
+        (
+            SignedGradient,
+            gradient && !statistics && filter.gradient_signed,
+            ["differences may cancel", "differences never cancel"],
+        ),
         (
             AcrossSurfaces,
-            gradient && filter.gradient_across_surfaces,
+            gradient && !statistics && filter.gradient_across_surfaces,
             ["λ heeds what is around", "λ is that of the surface alone, or 0"],
         ),
         (ExternalLambda, source == Source::Lambda, ["λ is the host's", "the host gives no λ"]),
         // An analytic pair is blind to what blocks a light: its ratio would rescale shadows too.
         (
             HistoryRatio,
-            (reshade || pairs) && filter.history_ratio,
+            (reshade || pairs || statistics) && filter.history_ratio,
             ["the history is rescaled by what paths show", "the history is blended as it is"],
         ),
         (BlendByLambda, filter.blend == Blend::Lambda, ["α' = (1 − λ)·α + λ is set", "α' = 1/n is set"]),

@@ -109,6 +109,8 @@ features! {
     Modulated,
     /// The gradient comes from pairs that the host made.
     Pairs,
+    /// The gradient comes from means of new samples and of their histories.
+    Statistics,
     /// Those pairs are luminances.
     LuminancePairs,
     /// Those pairs come one per stratum.

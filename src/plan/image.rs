@@ -40,6 +40,10 @@ pub enum Image {
     PairsNow(u8),
     /// Radiances before.
     PairsBefore(u8),
+    /// Means of new samples and the variance of what they differ by from their histories, as bits of f32, of each level of the pyramid.
+    MeansNow(u8),
+    /// Means of these histories.
+    MeansBefore(u8),
     /// Numerator and denominator of λ on the stratum's surface, and on any, as bits of f32; two take turns.
     Gradient(u8),
     /// What the history is multiplied with, as bits of f32.
@@ -61,6 +65,10 @@ pub enum Grid {
     Strata,
 }
 
+const MEANS_NOW: [&str; 6] = ["means now 0", "means now 1", "means now 2", "means now 3", "means now 4", "means now 5"];
+const MEANS_BEFORE: [&str; 6] =
+    ["means before 0", "means before 1", "means before 2", "means before 3", "means before 4", "means before 5"];
+
 impl Image {
     /// Format of the texture.
     pub fn format(self) -> TextureFormat {
@@ -80,6 +88,8 @@ impl Image {
             | Self::Shifts
             | Self::PairsNow(_)
             | Self::PairsBefore(_)
+            | Self::MeansNow(_)
+            | Self::MeansBefore(_)
             | Self::Gradient(_)
             | Self::Ratio => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
@@ -98,6 +108,8 @@ impl Image {
             | Self::PairBefore
             | Self::PairsNow(_)
             | Self::PairsBefore(_)
+            | Self::MeansNow(_)
+            | Self::MeansBefore(_)
             | Self::Gradient(_)
             | Self::Ratio => Grid::Strata,
             _ => Grid::Pixels,
@@ -127,6 +139,8 @@ impl Image {
             Self::PairsNow(_) => "pairs now 1",
             Self::PairsBefore(0) => "pairs before 0",
             Self::PairsBefore(_) => "pairs before 1",
+            Self::MeansNow(level) => MEANS_NOW[usize::from(level) % MEANS_NOW.len()],
+            Self::MeansBefore(level) => MEANS_BEFORE[usize::from(level) % MEANS_BEFORE.len()],
             Self::Gradient(0) => "gradient 0",
             Self::Gradient(_) => "gradient 1",
             Self::Ratio => "ratio",

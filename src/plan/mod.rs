@@ -71,7 +71,7 @@ impl Step {
     /// The same step for an adapter that is the CPU, see [`Feature::StorageReads`].
     pub(crate) fn on_cpu(mut self) -> Self {
         let reads = match self.pass {
-            Pass::GradientPairsFilter | Pass::GradientFilter | Pass::Atrous => true,
+            Pass::GradientPairsFilter | Pass::GradientMeansFilter | Pass::GradientFilter | Pass::Atrous => true,
             // With these it writes one storage texture more than leaves room for two that are read.
             Pass::Temporal => {
                 let has = |feature| self.features.has(feature);
@@ -113,7 +113,7 @@ impl Plan {
         let mut plan = Self::of(choice::traced(traits, settings, changes), target);
         let features = plan.features;
         plan.steps.push(passes::visibility::step(features));
-        if features.has(Feature::Gradient) {
+        if features.has(Feature::Gradient) && !features.has(Feature::Statistics) {
             plan.steps.push(passes::gradient_sample::step(features));
         }
         let batches = Batches::of(traits, &settings.tracer).count();
@@ -171,7 +171,13 @@ impl Plan {
         }
         let Settings { filter, .. } = settings;
         let features = self.features;
-        if features.has(Feature::Gradient) {
+        if features.has(Feature::Statistics) {
+            self.steps.push(passes::gradient_means::step(features));
+            let levels = 0..passes::gradient_of_means::COARSEST;
+            self.steps.extend(levels.map(|level| passes::gradient_means_filter::step(features, level)));
+            self.steps.push(passes::gradient_of_means::step(features));
+            self.gradient = Some(Image::Gradient(0));
+        } else if features.has(Feature::Gradient) {
             if features.has(Feature::HistoryRatio) {
                 self.steps.push(passes::gradient_pairs::step(features));
                 let filters = (0..filter.ratio_iterations).map(|i| passes::gradient_pairs_filter::step(features, i));

@@ -68,6 +68,10 @@ pub struct HostTraits {
     pub emission: bool,
     /// The radiance was divided by the albedo and has no emission.
     pub demodulated: bool,
+    /// There are pairs for the gradient.
+    pub pairs: bool,
+    /// There is λ.
+    pub lambda: bool,
     /// The gradient's pairs are luminances.
     pub luminance_pairs: bool,
     /// There is one pair per stratum instead of an image with mostly none.

@@ -22,6 +22,7 @@ mod traversal;
 
 mod atrous;
 mod gradient;
+mod gradient_means;
 mod gradient_sample;
 mod guards;
 mod history;

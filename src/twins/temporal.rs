@@ -10,7 +10,7 @@ use super::plane::{Pinhole, V, add, dot, scale, sub};
 use super::random::Random;
 use super::strata::{Site, exponent, falloff};
 use crate::passes::temporal;
-use crate::plan::{Feature, Features, Image};
+use crate::plan::{Feature, Features, Image, Step};
 use crate::{FilterSettings, Settings};
 
 /// Everything that the pass reads.
@@ -65,6 +65,18 @@ struct Before {
     weight: f64,
     /// Weight of all taps on the surface, whatever they have seen.
     surface: f64,
+}
+
+impl Before {
+    /// The weighted mean of the taps, if there are any to speak of.
+    fn mean(self) -> Option<Self> {
+        (self.weight > 0.01).then(|| {
+            let s = 1.0 / self.weight;
+            let mean = self.mean * s;
+            let variance = self.variance * s + (self.square * s - mean * mean).max(0.0);
+            Self { color: scale(self.color, s), mean, variance, length: self.length * s, ..self }
+        })
+    }
 }
 
 /// What stands for a radiance where there is none, and what marks an infinite one.
@@ -166,6 +178,11 @@ impl Given {
 
     fn run(&self) -> std::collections::BTreeMap<&'static str, Vec<Texel>> {
         let step = temporal::step(self.features, Some(Image::Gradient(0)));
+        self.bench.run(&step, &self.inputs(&step))
+    }
+
+    /// The images behind a step's bindings.
+    pub(super) fn inputs(&self, step: &Step) -> Vec<(&'static str, Vec<Texel>)> {
         let all = [
             ("guide", self.guide.iter().map(pack_guide).collect()),
             ("guide_previous", self.guide_before.iter().map(pack_guide).collect()),
@@ -180,9 +197,22 @@ impl Given {
             ("ratio", self.ratio.clone()),
             ("external_lambda", self.external.clone()),
         ];
-        let used: Vec<_> =
-            all.into_iter().filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|b| b.0 == *n)).collect();
-        self.bench.run(&step, &used)
+        all.into_iter().filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|b| b.0 == *n)).collect()
+    }
+
+    /// A pixel's sample, if it has one.
+    pub(super) fn sample(&self, i: usize) -> Option<V> {
+        let texel = self.radiance[i];
+        (texel != NO_SAMPLE && texel[1] & INFINITE == 0).then(|| unpack_rgb([texel[0], texel[1]]))
+    }
+
+    /// Colour, variance and length of the history under the four nearest taps, if there is one; and whether a threshold was near.
+    pub(super) fn bilinear_history(&self, i: usize, x: i32, y: i32) -> (Option<(V, f64, f64)>, bool) {
+        let mut notes = Notes::default();
+        let (sum, ..) = self.bilinear(i, x, y, &mut notes);
+        notes.unsure |= (sum.weight - 0.01).abs() < 1e-4;
+        let found = sum.mean().map(|h| (h.color, h.variance, h.length));
+        (found, notes.unsure)
     }
 
     fn has(&self, feature: Feature) -> bool {
@@ -250,6 +280,22 @@ impl Given {
             notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(variance.sqrt());
             return Some(Before { color, mean, variance, length, ..Default::default() });
         }
+        let (mut sum, origin, point, base) = self.bilinear(i, x, y, notes);
+        notes.unsure |= [sum.weight, sum.surface].iter().any(|w| (w - 0.01).abs() < 1e-4);
+        if sum.surface <= 0.01 {
+            sum = Before::default();
+            for (dx, dy) in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| (dx, dy))) {
+                let tap = [base[0] + dx, base[1] + dy];
+                let squared: f64 = [0, 1].map(|a| (f64::from(tap[a]) - point[a]).powi(2)).iter().sum();
+                self.add_tap(&mut sum, i, origin, tap, (-squared).exp(), notes);
+            }
+            notes.unsure |= (sum.weight - 0.01).abs() < 1e-4;
+        }
+        sum.mean()
+    }
+
+    /// The four taps around the place where the surface was; that place in the world and in the image, and its upper left pixel.
+    fn bilinear(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> (Before, V, [f64; 2], [i32; 2]) {
         let m = self.motion[i];
         let [jx, jy] = self.bench.camera.jitter.map(f64::from);
         let point = [f64::from(x) + m[0], f64::from(y) + m[1]];
@@ -266,22 +312,7 @@ impl Given {
             let w = along(dx, f[0]) * along(dy, f[1]);
             self.add_tap(&mut sum, i, origin, [base[0] + dx, base[1] + dy], w, notes);
         }
-        notes.unsure |= [sum.weight, sum.surface].iter().any(|w| (w - 0.01).abs() < 1e-4);
-        if sum.surface <= 0.01 {
-            sum = Before::default();
-            for (dx, dy) in (-1..=2).flat_map(|dy| (-1..=2).map(move |dx| (dx, dy))) {
-                let tap = [base[0] + dx, base[1] + dy];
-                let squared: f64 = [0, 1].map(|a| (f64::from(tap[a]) - point[a]).powi(2)).iter().sum();
-                self.add_tap(&mut sum, i, origin, tap, (-squared).exp(), notes);
-            }
-            notes.unsure |= (sum.weight - 0.01).abs() < 1e-4;
-        }
-        (sum.weight > 0.01).then(|| {
-            let s = 1.0 / sum.weight;
-            let mean = sum.mean * s;
-            let variance = sum.variance * s + (sum.square * s - mean * mean).max(0.0);
-            Before { color: scale(sum.color, s), mean, variance, length: sum.length * s, ..sum }
-        })
+        (sum, origin, point, base)
     }
 
     /// Ratio and λ of the strata around a pixel on its surface: of the 2×2, or else of the 4×4.

@@ -1,0 +1,145 @@
+// What each stratum shows of a change where no path was repeated: the mean of its new samples beside the mean of their reprojected
+// histories, and how far the two may differ by noise alone.
+//
+// Failure: a renderer that hands in an image and a G-buffer has no pairs, and a constant α lags behind its light. Reason: a single
+// sample says nothing about change, as its noise is larger. Rule: compare means over many, on one surface, of which both variances are
+// known.
+//
+//   s = mean of the new samples, m = mean of the histories, over the N pixels of the stratum that see the surface of its reference
+//   V = Σ(v + v/n)/N², the variance of s − m in luminance; v that of a sample, as the history has it, n its length
+//
+// The reference is the first pixel with a history, from the centre on. What a history of one sample knows of v is nothing: until n is 5,
+// a deviation of twice the mean is mixed in.
+
+#import asvgf::frame::{frame, inside, sample_point, world_position}
+#import asvgf::color::luminance
+#import asvgf::history_taps::{History, bilinear_taps, mean_of}
+#import asvgf::means::{Means, pack_before, pack_now, scaled}
+#import asvgf::packing::{unpack_motion, unpack_normal, unpack_rgb}
+#import asvgf::reproject::origin_of
+#import asvgf::strata_filter::PLANE
+#ifdef MISSING_SAMPLES
+#import asvgf::packing::is_sample
+#endif
+#ifdef HOST_LIGHT
+#import asvgf::host_light::host_sample
+#endif
+#ifdef HOST_MOTION
+#import asvgf::host_motion::host_motion
+#endif
+
+@group(0) @binding(1) var guide: texture_2d<u32>;
+#ifndef HOST_MOTION
+@group(0) @binding(3) var motion: texture_2d<u32>;
+#endif
+#ifdef OBJECTS
+@group(0) @binding(4) var object: texture_2d<u32>;
+#endif
+#ifndef HOST_LIGHT
+@group(0) @binding(6) var radiance: texture_2d<u32>;
+#endif
+@group(0) @binding(9) var samples_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(10) var now_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(11) var before_out: texture_storage_2d<rgba32uint, write>;
+
+// Deviation of a sample, in means, of which nothing is known.
+const PRIOR_DEVIATION: f32 = 2.0;
+
+// Samples after which the history's own variance is believed.
+const KNOWN: f32 = 5.0;
+
+// Cosine from which on two normals are those of one surface.
+const SAME_NORMAL: f32 = 0.9;
+
+fn history_of(pixel: vec2<i32>, g: vec2<u32>) -> History {
+    let depth = bitcast<f32>(g.y);
+#ifdef HOST_MOTION
+    let m = unpack_motion(host_motion(pixel, depth).packed);
+#else
+    let m = unpack_motion(textureLoad(motion, pixel, 0).xy);
+#endif
+#ifdef OBJECTS
+    let here = textureLoad(object, pixel, 0).x;
+#else
+    let here = 0u;
+#endif
+    let point = vec2<f32>(pixel) + m.xy;
+    return mean_of(bilinear_taps(origin_of(vec2<f32>(pixel), m, unpack_normal(g.x), here), point));
+}
+
+fn sample_of(pixel: vec2<i32>) -> vec2<u32> {
+#ifdef HOST_LIGHT
+    return host_sample(pixel, true);
+#else
+    return textureLoad(radiance, pixel, 0).xy;
+#endif
+}
+
+// The variance of one sample's luminance: unbiased, and not below what a short history can know.
+fn sample_variance(history: History, n: f32) -> f32 {
+    let prior = PRIOR_DEVIATION * history.mean;
+    let unbiased = history.variance * select(1.0, n / max(n - 1.0, 0.5), n < 8.0);
+    return mix(prior * prior, unbiased, min((n - 1.0) / (KNOWN - 1.0), 1.0));
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let stratum = vec2<i32>(id.xy);
+    var record = vec4(0u);
+    var place = vec3(0.0);
+    var normal = vec3(0.0);
+    var reach = 0.0;
+    var sum = Means(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    var count = 0.0;
+    let first = select(0u, 9u, frame.continued == 0u);
+    for (var k = first; k < 9u; k++) {
+        let at = select(k + 4u, k - 5u, k > 4u);
+        let row = (at * 11u) >> 5u;
+        let pixel = stratum * 3 + vec2<i32>(vec2(at - 3u * row, row));
+        if !inside(pixel) {
+            continue;
+        }
+        let g = textureLoad(guide, pixel, 0).xy;
+        let depth = bitcast<f32>(g.y);
+        if depth <= 0.0 {
+            continue;
+        }
+        let point = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
+        let n = unpack_normal(g.x);
+        if record.x != 0u && (abs(dot(normal, point - place)) > reach || dot(normal, n) < SAME_NORMAL) {
+            continue;
+        }
+        let arrived = sample_of(pixel);
+#ifdef MISSING_SAMPLES
+        if !is_sample(arrived) {
+            continue;
+        }
+#endif
+        let history = history_of(pixel, g);
+        if history.weight <= 0.0 {
+            continue;
+        }
+        if record.x == 0u {
+            record = vec4(at + 1u, 0u, g);
+            place = point;
+            normal = n;
+            reach = PLANE * depth;
+        }
+        let length = clamp(history.length, 1.0, frame.max_history);
+        let v = sample_variance(history, length);
+        let sample = unpack_rgb(arrived);
+        let l = luminance(sample);
+        let l_before = luminance(history.color);
+        sum.now += sample;
+        sum.before += history.color;
+        sum.variance += v + v / length;
+        sum.now_square += l * l;
+        sum.product += l * l_before;
+        sum.before_square += l_before * l_before;
+        count += 1.0;
+    }
+    let means = scaled(sum, 1.0 / max(count, 1.0));
+    textureStore(samples_out, stratum, record);
+    textureStore(now_out, stratum, pack_now(means));
+    textureStore(before_out, stratum, pack_before(means));
+}

@@ -1,0 +1,88 @@
+// History ratio ρ and λ of each stratum, from means of this frame's samples s and of the history m on three levels, from the coarsest,
+// which knows a change of the whole room with little noise, to the finest, which only has to add what differs from that.
+//
+//   d = s − ρ·m                                                           (luminances)
+//   V' = max(ρ²·V, Σ(s_i − ρ·m_i)²/N²): as the histories and as the samples know it
+//   λ ← max(λ, √max(0, d² − 6·V') / max(s, ρ·m))                          what even the coarser ratio does not explain
+//   ρ ← ρ + (ρ_level − ρ)·max(0, 1 − 6·V'/d²),  ρ_level = (s + e·ρ)/(m + e),  e = 0.05·m, per channel
+//
+// The subtractions are those of noise: d has the variance V' where nothing has changed. By the samples, d²/V' is (Σr)²/Σr² of the residuals
+// r: a number of samples that agree (Kish 1965). So no single bright path is taken for a change: by the histories alone, a still room
+// that is lit by one path in twenty became brighter by 12 %. Finer levels know their mean too badly: one of nine samples is off by a quarter.
+
+#import asvgf::frame::frame
+#import asvgf::color::luminance
+#import asvgf::means::{Means, unpack_means}
+
+@group(0) @binding(1) var samples: texture_2d<u32>;
+@group(0) @binding(2) var now_coarse: texture_2d<u32>;
+@group(0) @binding(3) var before_coarse: texture_2d<u32>;
+@group(0) @binding(4) var now_middle: texture_2d<u32>;
+@group(0) @binding(5) var before_middle: texture_2d<u32>;
+@group(0) @binding(6) var now_fine: texture_2d<u32>;
+@group(0) @binding(7) var before_fine: texture_2d<u32>;
+@group(0) @binding(8) var gradient_out: texture_storage_2d<rgba32uint, write>;
+#ifdef HISTORY_RATIO
+@group(0) @binding(9) var ratio_out: texture_storage_2d<rgba32uint, write>;
+#endif
+
+// Luminances below which there is nothing to compare, as in gradient.wgsl.
+const DARK: f32 = 7.9e-31;
+
+// Times the variance that is taken for noise: for λ, and for ρ.
+const LAMBDA_NOISE: f32 = 6.0;
+const RATIO_NOISE: f32 = 6.0;
+
+struct Found {
+    // For r, g, b and luminance.
+    ratio: vec4<f32>,
+    lambda: f32,
+}
+
+fn refine(found: Found, means: Means) -> Found {
+    let s = luminance(means.now);
+    let m = luminance(means.before);
+    let ratio = found.ratio;
+    let expected = ratio.w * m;
+    let larger = max(s, expected);
+    if larger <= DARK {
+        return found;
+    }
+    let difference = (s - expected) / larger;
+    let square = difference * difference;
+    let scale = ratio.w / larger;
+    let seen = (means.now_square / larger - 2.0 * scale * means.product) / larger + scale * scale * means.before_square;
+    let noise = max(scale * scale * means.variance, seen);
+    let lambda = max(found.lambda, sqrt(max(square - LAMBDA_NOISE * noise, 0.0)));
+#ifdef HISTORY_RATIO
+    // Of what comes out of the dark nothing is left by any ratio.
+    let e = frame.ratio_prior * m;
+    let level = (s + e * ratio.w) / max(m + e, DARK);
+    let limit = frame.ratio_chroma_limit;
+    let color = clamp((means.now + e * ratio.xyz) / max(means.before + e, vec3(DARK)), vec3(level / limit), vec3(level * limit));
+    let believed = select(max(0.0, 1.0 - RATIO_NOISE * noise / max(square, 1e-12)), 0.0, m <= 1e-6 * s);
+    return Found(ratio + (vec4(color, level) - ratio) * believed, lambda);
+#else
+    return Found(ratio, lambda);
+#endif
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let stratum = vec2<i32>(id.xy);
+    var found = Found(vec4(1.0), 0.0);
+    if textureLoad(samples, stratum, 0).x != 0u {
+        found = refine(found, unpack_means(textureLoad(now_coarse, stratum, 0), textureLoad(before_coarse, stratum, 0)));
+        found = refine(found, unpack_means(textureLoad(now_middle, stratum, 0), textureLoad(before_middle, stratum, 0)));
+        found = refine(found, unpack_means(textureLoad(now_fine, stratum, 0), textureLoad(before_fine, stratum, 0)));
+    }
+    var lambda = found.lambda;
+#ifdef HISTORY_RATIO
+    // A history that would have to be scaled by more than the limit is worth nothing, as in gradient.wgsl.
+    let most = frame.ratio_limit;
+    lambda = max(lambda, clamp(max(2.0 - 2.0 * most * found.ratio.w, found.ratio.w / most - 1.0), 0.0, 1.0));
+    textureStore(ratio_out, stratum, bitcast<vec4<u32>>(clamp(found.ratio, vec4(1.0 / most), vec4(most))));
+#endif
+    // As a quotient of sums over strata, as the other gradients are.
+    textureStore(gradient_out, stratum, bitcast<vec4<u32>>(vec4(lambda, 1.0, lambda, 1.0)));
+}
