@@ -65,7 +65,7 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     sequence.in_place |= options.in_place;
     bar.finish_and_clear();
     let gradient = source(options, &sequence);
-    eprint!("{}", summary(options, &sequence, gradient));
+    eprint!("{}", summary(&sequence));
 
     let gpu = Gpu::new()?;
     let mut film = Film::new(&gpu, sequence.size, settings(options, gradient))?;
@@ -108,7 +108,7 @@ fn settings(options: &Options, gradient: Gradient) -> Settings {
 }
 
 /// What was found, what was not, and what that means.
-fn summary(options: &Options, sequence: &Sequence, gradient: Gradient) -> String {
+fn summary(sequence: &Sequence) -> String {
     let list = |wanted: bool| {
         let layers = Layer::ALL.into_iter().filter(|&layer| sequence.has(layer) == wanted);
         layers.map(Layer::name).collect::<Vec<_>>().join(", ")

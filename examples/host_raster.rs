@@ -10,7 +10,9 @@ mod host;
 mod tone;
 
 use asvgf::wgpu::TextureFormat;
-use asvgf::{Denoiser, DenoiserDescriptor, Shading, Surfaces, View, ViewOptions, image_io};
+use asvgf::{
+    Denoiser, DenoiserDescriptor, FilterSettings, Gradient, Settings, Shading, Surfaces, View, ViewOptions, image_io,
+};
 use gpu::Gpu;
 use host::{Moment, Renderer};
 use std::error::Error;
@@ -20,8 +22,10 @@ const SIZE: [u32; 2] = [640, 360];
 fn main() -> Result<(), Box<dyn Error>> {
     let gpu = Gpu::new()?;
     let renderer = Renderer::new(&gpu.device, SIZE);
+    let filter = FilterSettings { gradient: Gradient::Reshade, ..Default::default() };
+    let settings = Settings { filter, ..Settings::adaptive() };
     let mut denoiser =
-        Denoiser::new(&gpu.device, &gpu.queue, &DenoiserDescriptor { size: SIZE, ..Default::default() })?;
+        Denoiser::new(&gpu.device, &gpu.queue, &DenoiserDescriptor { size: SIZE, settings, ..Default::default() })?;
     let noisy = host::image(&gpu.device, SIZE, TextureFormat::Rgba32Float);
     let clean = host::image(&gpu.device, SIZE, TextureFormat::Rgba32Float);
     for index in 0..40 {

@@ -45,6 +45,11 @@ struct Sums {
     spread: vec3<f32>,
     color_x: vec3<f32>,
     color_y: vec3<f32>,
+#ifdef RIDGE_BY_NOISE
+    // Σw²·V·x, Σw²·V·y, Σw²·V·(x² + y²)
+    variance_offset: vec2<f32>,
+    variance_spread: f32,
+#endif
 #endif
 }
 
@@ -105,25 +110,43 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, ke
     (*sums).spread += weight * vec3(xy.x * xy.x, xy.x * xy.y, xy.y * xy.y);
     (*sums).color_x += (weight * xy.x) * sample;
     (*sums).color_y += (weight * xy.y) * sample;
+#ifdef RIDGE_BY_NOISE
+    let of_variance = weight * weight * sample_variance;
+    (*sums).variance_offset += of_variance * xy;
+    (*sums).variance_spread += of_variance * dot(xy, xy);
+#endif
 #endif
 }
 
 #ifdef LOCAL_LINEAR_FIT
+#ifdef RIDGE_BY_NOISE
+// Within these parts of the ridge that is set: below, the plane follows what its taps' variances do not know; above, it is the mean.
+const RIDGE_LEAST: f32 = 0.3;
+const RIDGE_MOST: f32 = 8.0;
+#endif
+
 // The value at the centre of the plane that fits the taps best, with a ridge on its slopes: a weighted mean lags behind on
 // a slope wherever its taps are lopsided, at borders and penumbrae; the plane does not. Kept within ½…1½ of the mean.
 fn fit(sums: Sums) -> vec3<f32> {
     let scale = 1.0 / sums.weight;
     let mean = sums.color * scale;
     let m = sums.offset * scale;
-    let xx = sums.spread.x * scale - m.x * m.x + frame.ridge;
+    let x = sums.color_x * scale - m.x * mean;
+    let y = sums.color_y * scale - m.y * mean;
+    var ridge = frame.ridge;
+#ifdef RIDGE_BY_NOISE
+    // A slope that is noise is not followed, one that is none is: a ridge in proportion to the variance of the slope over its square.
+    let noise = (sums.variance_spread - 2.0 * dot(m, sums.variance_offset) + dot(m, m) * sums.variance) * scale * scale;
+    let slope = vec2(luminance(x), luminance(y));
+    ridge *= clamp(frame.ridge_noise * max(noise, 0.0) / (dot(slope, slope) + 1e-37), RIDGE_LEAST, RIDGE_MOST);
+#endif
+    let xx = sums.spread.x * scale - m.x * m.x + ridge;
     let xy = sums.spread.y * scale - m.x * m.y;
-    let yy = sums.spread.z * scale - m.y * m.y + frame.ridge;
+    let yy = sums.spread.z * scale - m.y * m.y + ridge;
     let determinant = xx * yy - xy * xy;
     if determinant <= 1e-6 {
         return mean;
     }
-    let x = sums.color_x * scale - m.x * mean;
-    let y = sums.color_y * scale - m.y * mean;
     let value = mean - (m.x * (yy * x - xy * y) + m.y * (xx * y - xy * x)) / determinant;
     return clamp(value, 0.5 * mean, 1.5 * mean);
 }
@@ -213,10 +236,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     add_tap(&sums, c, north_east, vec2(1, -1), 4.0 / 9.0, slant.w);
     add_tap(&sums, c, south_west, vec2(-1, 1), 4.0 / 9.0, slant.w);
     add_tap(&sums, c, south_east, vec2(1, 1), 4.0 / 9.0, slant.z);
+#ifndef SMALL_KERNEL
     add_far_tap(&sums, c, pixel, vec2(-2, 0), 1.0 / 6.0, slant.x);
     add_far_tap(&sums, c, pixel, vec2(2, 0), 1.0 / 6.0, slant.x);
     add_far_tap(&sums, c, pixel, vec2(0, -2), 1.0 / 6.0, slant.y);
     add_far_tap(&sums, c, pixel, vec2(0, 2), 1.0 / 6.0, slant.y);
+#endif
 #ifdef FULL_KERNEL
     // The diamond of 13 taps above, completed to 5×5.
     add_far_tap(&sums, c, pixel, vec2(-2, -1), 1.0 / 9.0, oblique.x);

@@ -19,6 +19,9 @@
 #ifdef FEEDBACK
 #import asvgf::packing::pack_rgb
 #endif
+#ifdef STEADY
+#import asvgf::packing::pack_tap
+#endif
 #ifdef HOST_LIGHT
 #import asvgf::host_light::host_sample
 #endif
@@ -59,9 +62,26 @@
 @group(0) @binding(10) var external_lambda: texture_2d<f32>;
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rg32uint, write>;
+#ifdef STEADY
+// The last output where the surface was, rescaled as the history is, and its weight in this one, see steady.wgsl.
+@group(0) @binding(16) var reprojected_out: texture_storage_2d<rg32uint, write>;
+#endif
 #ifdef KEEP_WEIGHTS
 // α and λ, for views.
 @group(0) @binding(14) var weights_out: texture_storage_2d<rg32float, write>;
+#endif
+
+#ifdef STEADY
+// How much of the last output is blended into this one: nothing where λ says that the light has changed, and as much as a mean over
+// the k frames before would have, up to a limit, beyond which it lags. Between pixels a bilinear tap blurs, each frame anew: there it
+// counts less, and not at all in the middle of four.
+fn steadiness(lambda: f32, length: f32, motion: vec2<f32>) -> f32 {
+    let k = max(length - 1.0, 0.0);
+    let unchanged = (1.0 - lambda) * (1.0 - lambda);
+    let f = fract(motion);
+    let between = 2.0 * dot(f, vec2(1.0) - f);
+    return min(unchanged * unchanged * k / (k + 1.0), frame.steadiness) * max(1.0 - between, 0.0);
+}
 #endif
 
 #ifndef STILL
@@ -123,7 +143,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     let sample = unpack_rgb(arrived);
     let l = luminance(sample);
-    var history = History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    var history = History();
+#ifdef STEADY
+    var last_output = vec3(0.0);
+    var steady = 0.0;
+    var moved = vec2(0.0);
+#endif
     if frame.continued != 0u {
 #ifdef STILL
         history = own_history(pixel);
@@ -139,6 +164,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let here = 0u;
 #endif
         history = reproject(pixel, m, origin_of(vec2<f32>(pixel), m, normal, here), seen);
+#ifdef STEADY
+        moved = m.xy;
+#endif
 #endif
     }
     var color = sample;
@@ -202,6 +230,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let deviation = l - mean_before;
         mean = mean_before + alpha * deviation;
         variance = (1.0 - alpha) * (variance_before + alpha * deviation * deviation);
+#ifdef STEADY
+        last_output = history.output;
+#ifdef HISTORY_RATIO
+        last_output *= change.ratio.xyz;
+#endif
+        steady = steadiness(lambda, length, moved);
+#endif
     }
 #ifdef MISSING_SAMPLES
     // An infinite sample without a history is kept as a colour of length 0, to be shown.
@@ -222,6 +257,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let kept = seen;
 #endif
     textureStore(history_out, pixel, vec4(select(vec2(0u), packed, kept), 0u, 0u));
+#ifdef STEADY
+    textureStore(reprojected_out, pixel, vec4(select(vec2(0u), pack_tap(last_output, steady), seen), 0u, 0u));
+#endif
 #ifdef KEEP_WEIGHTS
     textureStore(weights_out, pixel, vec4(select(vec2(0.0), vec2(alpha, lambda), seen), 0.0, 0.0));
 #endif

@@ -75,6 +75,7 @@ pub fn all() -> Vec<Method> {
         methods.push(Method { name: format!("average {alpha}"), group: Group::Average, settings });
     }
     methods.push(adaptive("blinn-phong", with(|f| f.gradient = Gradient::BlinnPhong)));
+    methods.push(adaptive("statistics", with(|f| f.gradient = Gradient::Statistics)));
     for (name, change) in ABLATIONS {
         methods.push(Method { name: name.into(), group: Group::Ablation, settings: filter(with(change)) });
     }

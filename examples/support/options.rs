@@ -48,7 +48,8 @@ Denoiser
   --preset NAME         default, or classic: the formulas as published       [default]
   --alpha KIND          adaptive, or constant:A with 0…1 as the weight of each new
                         frame (constant alone: 0.2)                         [adaptive]
-  --gradient KIND       what makes alpha adaptive: reshade (repeated paths),
+  --gradient KIND       what makes alpha adaptive: reshade (repeated paths), statistics
+                        (new samples against their history: no path is repeated),
                         blinn-phong (lights without shadows), off (the same as a
                         constant alpha)                                      [reshade]
   --iterations N        spatial filter iterations, 0…8          [default 4, classic 5]
@@ -253,11 +254,13 @@ impl Filter {
             settings.filter.iterations = iterations;
         }
         match (self.constant, self.gradient) {
-            (Some(_), Some(Gradient::Reshade | Gradient::BlinnPhong)) => {
+            (Some(_), Some(Gradient::Reshade | Gradient::Statistics | Gradient::BlinnPhong)) => {
                 return Err(Usage("--alpha constant has no gradient: leave out --gradient or set it to off".into()));
             }
             (None, Some(Gradient::Off)) if self.adaptive => {
-                return Err(Usage("--alpha adaptive needs a gradient: --gradient reshade or blinn-phong".into()));
+                return Err(Usage(
+                    "--alpha adaptive needs a gradient: --gradient reshade, statistics or blinn-phong".into(),
+                ));
             }
             (Some(alpha), _) => settings = settings.constant(alpha),
             (None, _) => {}
@@ -337,7 +340,12 @@ impl Value {
     }
 
     fn gradient(&self) -> Result<Gradient, Usage> {
-        self.one_of(&[("reshade", Gradient::Reshade), ("blinn-phong", Gradient::BlinnPhong), ("off", Gradient::Off)])
+        self.one_of(&[
+            ("reshade", Gradient::Reshade),
+            ("statistics", Gradient::Statistics),
+            ("blinn-phong", Gradient::BlinnPhong),
+            ("off", Gradient::Off),
+        ])
     }
 }
 

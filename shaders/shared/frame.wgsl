@@ -62,6 +62,10 @@ struct Frame {
     // Deviation over luminance below which a pixel is left as it is.
     converged: f32,
     sigma_foreshortening: f32,
+    // Times the variance of the fitted plane's slope over its square, of the ridge.
+    ridge_noise: f32,
+    // Most that the last output weighs in this one.
+    steadiness: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -13,7 +13,7 @@
 
 #import asvgf::random::hash
 #ifndef TEMPORAL_ONLY
-#import asvgf::packing::tap_color
+#import asvgf::packing::{tap_color, unpack_rgb}
 #endif
 
 // Numbers to round with, one for each of the three fields, uniform in 32 bits. From frame to frame they follow the
@@ -81,6 +81,10 @@ fn filtered_color(texel: vec2<u32>) -> vec3<f32> {
 #ifdef TEMPORAL_ONLY
     return history_color(texel);
 #else
+#ifdef STEADY
+    return unpack_rgb(texel);
+#else
     return tap_color(texel);
+#endif
 #endif
 }

@@ -5,9 +5,7 @@
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::history::{history_color, history_variance, history_length}
-#ifdef FEEDBACK
 #import asvgf::packing::unpack_rgb
-#endif
 #ifndef STILL
 #import asvgf::reproject::{Origin, same_surface}
 #endif
@@ -48,6 +46,10 @@ fn history_at(tap: vec2<i32>) -> vec2<u32> {
 }
 #endif
 
+#ifdef STEADY
+@group(0) @binding(15) var output_previous: texture_2d<u32>;
+#endif
+
 struct History {
     color: vec3<f32>,
     mean: f32,
@@ -55,6 +57,10 @@ struct History {
     length: f32,
     // Sum of the weights of the taps that were accepted.
     weight: f32,
+#ifdef STEADY
+    // The last output there.
+    output: vec3<f32>,
+#endif
 }
 
 #ifdef STILL
@@ -69,7 +75,16 @@ fn own_history(pixel: vec2<i32>) -> History {
     let color = history_color(h);
     let mean = luminance(color);
 #endif
-    return History(color, mean, history_variance(h), length, select(0.0, 1.0, length > 0.0));
+    var history = History();
+    history.color = color;
+    history.mean = mean;
+    history.variance = history_variance(h);
+    history.length = length;
+    history.weight = select(0.0, 1.0, length > 0.0);
+#ifdef STEADY
+    history.output = unpack_rgb(textureLoad(output_previous, pixel, 0).xy);
+#endif
+    return history;
 }
 #else
 struct Taps {
@@ -82,6 +97,9 @@ struct Taps {
 #ifdef MISSING_SAMPLES
     // Sum of the weights of all taps on the surface, also of those that have seen no sample yet.
     surface: f32,
+#endif
+#ifdef STEADY
+    output: vec3<f32>,
 #endif
 }
 
@@ -113,6 +131,9 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
     (*sum).variance += weight * history_variance(h);
     (*sum).length += weight * history_length(h);
     (*sum).weight += weight;
+#ifdef STEADY
+    (*sum).output += weight * unpack_rgb(textureLoad(output_previous, tap, 0).xy);
+#endif
 }
 
 // The pixel at the upper left of a point's four. A motion that is whole but for rounding does not reach the next pixel.
@@ -134,12 +155,21 @@ fn bilinear_taps(origin: Origin, point: vec2<f32>) -> Taps {
 // Their weighted mean; nothing where they weigh next to nothing.
 fn mean_of(sum: Taps) -> History {
     if sum.weight <= 0.01 {
-        return History(vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+        return History();
     }
     let scale = 1.0 / sum.weight;
     let mean = sum.mean * scale;
     // The taps' own variances and the spread of their means.
     let variance = sum.variance * scale + max(sum.square * scale - mean * mean, 0.0);
-    return History(sum.color * scale, mean, variance, sum.length * scale, sum.weight);
+    var history = History();
+    history.color = sum.color * scale;
+    history.mean = mean;
+    history.variance = variance;
+    history.length = sum.length * scale;
+    history.weight = sum.weight;
+#ifdef STEADY
+    history.output = sum.output * scale;
+#endif
+    return history;
 }
 #endif

@@ -63,8 +63,12 @@ fn tap_color(tap: vec2<u32>) -> vec3<f32> {
     return vec3(unpack_unsigned(tap.x & 0xffffu), unpack_unsigned(tap.x >> 16u), unpack_unsigned(tap.y & 0xffffu));
 }
 
+fn unpack_tap_deviation(tap: vec2<u32>) -> f32 {
+    return unpack_unsigned(tap.y >> 16u);
+}
+
 fn tap_variance(tap: vec2<u32>) -> f32 {
-    let deviation = unpack_unsigned(tap.y >> 16u);
+    let deviation = unpack_tap_deviation(tap);
     return deviation * deviation;
 }
 

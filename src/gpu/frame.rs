@@ -37,6 +37,10 @@ pub(crate) struct FrameUniform {
     lambda_block: u32,
     converged: f32,
     sigma_foreshortening: f32,
+    ridge_noise: f32,
+    steadiness: f32,
+    // WGSL rounds a struct's size up to that of a vector.
+    padding: [u32; 2],
 }
 
 /// What differs from frame to frame.
@@ -99,6 +103,9 @@ impl FrameUniform {
             lambda_block: moment.lambda_block,
             converged: f.converged,
             sigma_foreshortening: f.sigma_foreshortening,
+            ridge_noise: f.ridge_noise,
+            steadiness: f.steadiness,
+            padding: [0; 2],
         }
     }
 }
@@ -168,7 +175,7 @@ mod tests {
         let fields = fields!(FrameUniform: size, strata, camera, previous, index, seed, continued, samples, batch, first_sample, bounces, roulette,
             alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
             ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block, converged,
-            sigma_foreshortening);
+            sigma_foreshortening, ridge_noise, steadiness);
         assert_layout("Frame", fields, size_of::<FrameUniform>());
     }
 }

@@ -3,7 +3,8 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] = &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit];
+const FEATURES: &[Feature] =
+    &[Feature::ClassicStops, Feature::FullKernel, Feature::LocalLinearFit, Feature::RidgeByNoise];
 
 /// Only the first iteration smooths the variance and feeds the history.
 const FIRST: &[Feature] = &[Feature::FirstIteration, Feature::Feedback];
@@ -11,7 +12,17 @@ const FIRST: &[Feature] = &[Feature::FirstIteration, Feature::Feedback];
 pub(crate) fn step(features: Features, iteration: u32) -> Step {
     let first: &[Feature] = if iteration == 0 { FIRST } else { &[] };
     let features = features.with(Feature::FirstIteration).and(FEATURES.iter().chain(first).copied().collect());
-    let from = (iteration % 2) as u8;
+    iterate(features, iteration, (iteration % 2) as u8)
+}
+
+/// One more over the nearest taps alone, after so many others.
+pub(crate) fn last_step(features: Features, iterations: u32) -> Step {
+    let features = features.and(Features::of(FEATURES)).without(Feature::FullKernel).with(Feature::SmallKernel);
+    iterate(features, 0, (iterations % 2) as u8)
+}
+
+/// From one of the two images of colours to the other.
+fn iterate(features: Features, iteration: u32, from: u8) -> Step {
     Step {
         pass: Pass::Atrous,
         features,

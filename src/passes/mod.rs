@@ -17,6 +17,7 @@ pub(crate) mod ingest_radiance;
 pub(crate) mod ingest_surface;
 pub(crate) mod reshade;
 pub(crate) mod resolve;
+pub(crate) mod steady;
 pub(crate) mod temporal;
 #[cfg(feature = "path-tracer")]
 pub(crate) mod trace;
@@ -67,6 +68,8 @@ pub enum Pass {
     Variance,
     /// One spatial iteration.
     Atrous,
+    /// The last output blended in.
+    Steady,
     /// The picture put together.
     Resolve,
     /// An intermediate shown.
@@ -96,6 +99,7 @@ impl Pass {
             Self::Temporal => "temporal",
             Self::Variance => "variance",
             Self::Atrous => "atrous",
+            Self::Steady => "steady",
             Self::Resolve => "resolve",
             Self::View => "view",
         }
@@ -130,6 +134,7 @@ impl Pass {
             Self::Temporal => include_str!("../../shaders/temporal.wgsl"),
             Self::Variance => include_str!("../../shaders/variance.wgsl"),
             Self::Atrous => include_str!("../../shaders/atrous.wgsl"),
+            Self::Steady => include_str!("../../shaders/steady.wgsl"),
             Self::Resolve => include_str!("../../shaders/resolve.wgsl"),
             Self::View => include_str!("../../shaders/view.wgsl"),
         }

@@ -6,6 +6,7 @@ use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 const FEATURES: &[Feature] = &[
     Feature::Unfiltered,
     Feature::TemporalOnly,
+    Feature::Steady,
     Feature::Background,
     Feature::Albedo,
     Feature::DirectEmission,

@@ -17,6 +17,7 @@ const FEATURES: &[Feature] = &[
     Feature::HostMotion,
     Feature::HostLight,
     Feature::MissingSamples,
+    Feature::Steady,
     Feature::KeepWeights,
 ];
 
@@ -52,6 +53,8 @@ pub(crate) fn step(given: Features, gradient: Option<Image>) -> Step {
             ("gradient", Slot::Now(gradient), &[Feature::Gradient]),
             ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
             ("external_lambda", Slot::Host, &[Feature::ExternalLambda]),
+            ("output_previous", Slot::Before(Image::Output), &[Feature::Steady]),
+            ("reprojected_out", Slot::Now(Image::Reprojected), &[Feature::Steady]),
             ("history_out", Slot::Now(Image::History), &[]),
             ("weights_out", Slot::Now(Image::Weights), &[Feature::KeepWeights]),
         ],

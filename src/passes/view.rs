@@ -61,13 +61,13 @@ pub(crate) fn step(
         View::PairBefore => before,
         _ => Slot::Now(Image::Radiance),
     };
-    let known = [Feature::TemporalOnly, Feature::Albedo, Feature::DirectEmission, Feature::Background, Feature::Pairs];
+    let known = [Feature::TemporalOnly, Feature::Steady, Feature::Albedo, Feature::DirectEmission, Feature::Background, Feature::Pairs];
     let mut features = plan.features.and(Features::of(&known));
     if !matches!(view, View::Denoised | View::Noisy | View::Emission) {
         features = features.without(Feature::DirectEmission);
     }
     if !matches!(view, View::Denoised | View::NonFinite) {
-        features = features.without(Feature::TemporalOnly);
+        features = features.without(Feature::TemporalOnly).without(Feature::Steady);
     }
     if view != View::Denoised {
         features = features.without(Feature::Background);

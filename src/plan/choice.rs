@@ -198,5 +198,20 @@ fn filter(
         (FullKernel, filter.kernel == Kernel::Full, ["25 taps are set", "13 taps are set"]),
         (KeepWeights, views, ["α and λ are kept for views", "no view is asked for: α and λ are not kept"]),
         (LocalLinearFit, filter.local_linear_fit, ["a plane is fitted to the taps", "taps are averaged"]),
+        (
+            RidgeByNoise,
+            filter.local_linear_fit && filter.ridge_noise > 0.0,
+            ["the plane follows a slope as far as that is not noise", "the plane's ridge is constant, or there is none"],
+        ),
+        (
+            SmallKernel,
+            spatial && filter.final_iteration,
+            ["a last iteration over the nearest taps is set", "no last iteration is set"],
+        ),
+        (
+            Steady,
+            spatial && filter.steadiness > 0.0,
+            ["the last output steadies this one", "no steadiness is set, or nothing is filtered in space"],
+        ),
     ]
 }

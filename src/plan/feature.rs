@@ -77,6 +77,12 @@ features! {
     FullKernel,
     /// Plane instead of mean.
     LocalLinearFit,
+    /// The plane's ridge follows the noise of its slope.
+    RidgeByNoise,
+    /// The nine nearest taps alone.
+    SmallKernel,
+    /// The last output is blended into this one.
+    Steady,
     /// The target shows the samples as they are.
     Unfiltered,
     /// The target shows the mean over frames.

@@ -54,6 +54,10 @@ pub enum Image {
     Paths(u8),
     /// α and λ.
     Weights,
+    /// The last output where the surface was, and its weight.
+    Reprojected,
+    /// The filtered colour with the last one blended in.
+    Output,
 }
 
 /// How many texels an image has, or invocations a pass.
@@ -81,6 +85,8 @@ impl Image {
             | Self::History
             | Self::Feedback
             | Self::Color(_)
+            | Self::Reprojected
+            | Self::Output
             | Self::PairNow
             | Self::PairBefore => TextureFormat::Rg32Uint,
             Self::Samples
@@ -148,6 +154,8 @@ impl Image {
             Self::Paths(0) => "paths 0",
             Self::Paths(_) => "paths 1",
             Self::Weights => "weights",
+            Self::Reprojected => "reprojected",
+            Self::Output => "output",
         }
     }
 }

@@ -71,11 +71,13 @@ impl Step {
     /// The same step for an adapter that is the CPU, see [`Feature::StorageReads`].
     pub(crate) fn on_cpu(mut self) -> Self {
         let reads = match self.pass {
-            Pass::GradientPairsFilter | Pass::GradientMeansFilter | Pass::GradientFilter | Pass::Atrous => true,
-            // With these it writes one storage texture more than leaves room for two that are read.
+            Pass::GradientPairsFilter | Pass::GradientMeansFilter | Pass::GradientFilter => true,
+            Pass::Atrous | Pass::Steady => true,
+            // Four storage textures are all that is sure to be had: it reads one in a still image, else two.
             Pass::Temporal => {
-                let has = |feature| self.features.has(feature);
-                !(has(Feature::Feedback) && has(Feature::KeepWeights)) || has(Feature::Still)
+                let has = |feature| u32::from(self.features.has(feature));
+                let written = 1 + has(Feature::Feedback) + has(Feature::Steady) + has(Feature::KeepWeights);
+                written + 2 - has(Feature::Still) <= 4
             }
             #[cfg(feature = "path-tracer")]
             Pass::Trace => true,
@@ -195,7 +197,17 @@ impl Plan {
         }
         self.steps.push(passes::variance::step(features));
         self.steps.extend((0..filter.iterations).map(|i| passes::atrous::step(features, i)));
-        self.color = Some(Image::Color((filter.iterations % 2) as u8));
+        let mut iterations = filter.iterations;
+        if features.has(Feature::SmallKernel) {
+            self.steps.push(passes::atrous::last_step(features, iterations));
+            iterations += 1;
+        }
+        let color = Image::Color((iterations % 2) as u8);
+        self.color = Some(color);
+        if features.has(Feature::Steady) {
+            self.steps.push(passes::steady::step(features, color));
+            self.color = Some(Image::Output);
+        }
     }
 
     /// The same plan for an adapter that is the CPU.

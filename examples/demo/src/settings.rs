@@ -56,7 +56,7 @@ macro_rules! one_of {
 /// How the noise is filtered, in the order of the library's documentation.
 pub const FILTER: &[Setting] = &[
     // `Pairs` and `Lambda` come from a host's renderer, and there is none here.
-    one_of!(filter.gradient, Gradient: Reshade, BlinnPhong, Off),
+    one_of!(filter.gradient, Gradient: Automatic, Reshade, Statistics, BlinnPhong, Off),
     number!(filter.alpha, 0.0..=1.0, true),
     number!(filter.max_history, 1.0..=1024.0, true),
     number!(filter.history_power, 0.0..=16.0, false),

@@ -169,7 +169,7 @@ impl State {
         let mut settings = self.settings.clone();
         match source {
             Source::Adaptive if settings.filter.gradient == Gradient::Off => {
-                settings.filter.gradient = Gradient::Reshade;
+                settings.filter.gradient = Gradient::Automatic;
             }
             Source::Adaptive => {}
             Source::Constant => settings = settings.constant(self.alpha),
@@ -263,7 +263,7 @@ mod tests {
     fn constant_is_constant_and_adaptive_is_not_whatever_the_panel_says() {
         let mut state = State { alpha: 0.1, ..State::default() };
         state.settings.filter.gradient = Gradient::Off;
-        assert_eq!(state.settings(Source::Adaptive).filter.gradient, Gradient::Reshade);
+        assert_eq!(state.settings(Source::Adaptive).filter.gradient, Gradient::Automatic);
         let constant = state.settings(Source::Constant).filter;
         assert_eq!((constant.gradient, constant.alpha), (Gradient::Off, 0.1));
     }

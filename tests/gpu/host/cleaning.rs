@@ -1,6 +1,6 @@
 //! What is not a number, infinite or negative neither spreads nor goes uncounted.
 
-use super::{Recorded, SIZE, Uploaded, colors, recorded, target, upload};
+use super::{Recorded, SIZE, Uploaded, colors, recorded, reshading, target, upload};
 use crate::common::gpu::gpu;
 use crate::common::statistics::Rgb;
 use asvgf::{Denoiser, DenoiserDescriptor, FilterSettings, Gradient, InputCounts, Pairs, Settings, Shading, View};
@@ -124,7 +124,7 @@ fn bad_pairs_are_left_out_and_counted() {
 #[test]
 fn without_diagnostics_nothing_is_counted() {
     let frames = recorded(Settings::adaptive());
-    let mut denoiser = super::denoiser(Settings::adaptive());
+    let mut denoiser = super::denoiser(super::reshading());
     denoise(&mut denoiser, &frames[0]);
     assert!(denoiser.take_counts().is_none());
 }

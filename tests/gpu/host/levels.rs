@@ -1,6 +1,6 @@
 //! The three ways to an adaptive α agree with each other, and with the path tracer's own.
 
-use super::{SIZE, Uploaded, colors, denoiser, difference, recorded, replay, target, upload, view};
+use super::{SIZE, Uploaded, colors, denoiser, difference, recorded, replay, reshading, target, upload, view};
 use crate::common::gpu::gpu;
 use crate::common::statistics::Rgb;
 use asvgf::{FilterSettings, Gradient, Lambda, Pairs, Settings, Shading, View};
@@ -23,7 +23,7 @@ fn assert_same(a: &[Rgb], b: &[Rgb], allowed: [f64; 2], what: &str) {
 #[test]
 fn level_2_is_the_path_tracers_own_gradient() {
     let frames = recorded(Settings::adaptive());
-    let images = replay(&mut denoiser(Settings::adaptive()), &frames);
+    let images = replay(&mut denoiser(reshading()), &frames);
     // A host's noise may be the same in every frame, the path tracer's is not: where two samples agree to a thousandth by chance, a
     // host's pixel takes its neighbours' variance.
     let allowed = [0.03, ROUNDING[1]];
@@ -56,7 +56,7 @@ fn pairs(repeats: &TextureView, now: &[Rgb], before: &[Rgb]) -> [Vec<Rgb>; 2] {
 #[test]
 fn level_1_is_level_2_with_the_pairs_by_hand() {
     let frames = recorded(Settings::adaptive());
-    let (mut shown, mut told) = (denoiser(Settings::adaptive()), denoiser(with(Gradient::Pairs, true)));
+    let (mut shown, mut told) = (denoiser(reshading()), denoiser(with(Gradient::Pairs, true)));
     let [a, b] = [0; 2].map(|_| target());
     let mut largest = 0.0_f32;
     for (i, frame) in frames.iter().enumerate() {

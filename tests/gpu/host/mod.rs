@@ -13,7 +13,9 @@ use crate::common::gpu::{Gpu, gpu};
 use crate::common::images::{self, upload, upload_bytes};
 use crate::common::stage::Stage;
 use crate::common::statistics::Rgb;
-use asvgf::{Camera, Denoiser, DenoiserDescriptor, Settings, Shading, Surfaces, View, ViewOptions};
+use asvgf::{
+    Camera, Denoiser, DenoiserDescriptor, FilterSettings, Gradient, Settings, Shading, Surfaces, View, ViewOptions,
+};
 use wgpu::{TextureFormat, TextureView};
 
 const SIZE: [u32; 2] = [48, 36];
@@ -31,6 +33,12 @@ struct Recorded {
     /// Noisy, without albedo.
     light: Vec<Rgb>,
     denoised: Vec<Rgb>,
+}
+
+/// The default, with paths that the host repeats.
+fn reshading() -> Settings {
+    let filter = FilterSettings { gradient: Gradient::Reshade, ..Default::default() };
+    Settings { filter, ..Settings::adaptive() }
 }
 
 /// Frames of the box of Cornell about the one in which its lamp goes out, seen by a camera that moves and sees no lamp.

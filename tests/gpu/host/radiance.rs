@@ -1,6 +1,6 @@
 //! Radiance with and without its albedo and emission, and the modes without a filter.
 
-use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, replay, target, upload};
+use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, replay, reshading, target, upload};
 use crate::common::gpu::gpu;
 use crate::common::statistics::Rgb;
 use asvgf::{Mode, Settings, Shading};
@@ -20,7 +20,7 @@ fn full(frame: &Recorded, emission: &[Rgb]) -> Vec<Rgb> {
 #[test]
 fn the_full_image_and_its_parts_are_denoised_alike() {
     let frames = recorded(Settings::adaptive());
-    let (mut whole, mut parts) = (denoiser(Settings::adaptive()), denoiser(Settings::adaptive()));
+    let (mut whole, mut parts) = (denoiser(reshading()), denoiser(reshading()));
     let [a, b] = [0; 2].map(|_| target());
     let emitted = emission();
     let glow = upload(gpu(), SIZE, &emitted);
@@ -40,7 +40,7 @@ fn the_full_image_and_its_parts_are_denoised_alike() {
         assert!(found[0] < 2e-2 && found[1] < 1e-3, "frame {}: {found:?}", frame.index);
     }
     // Emission bypasses the filter: it is as sharp as it came.
-    let dark = replay(&mut denoiser(Settings::adaptive()), &frames);
+    let dark = replay(&mut denoiser(reshading()), &frames);
     for (i, lit) in colors(&b).iter().enumerate() {
         for c in 0..3 {
             let added = lit[c] - dark[dark.len() - 1][i][c];
@@ -52,7 +52,7 @@ fn the_full_image_and_its_parts_are_denoised_alike() {
 #[test]
 fn the_target_may_be_the_radiance() {
     let frames = recorded(Settings::adaptive());
-    let (mut inside, mut apart) = (denoiser(Settings::adaptive()), denoiser(Settings::adaptive()));
+    let (mut inside, mut apart) = (denoiser(reshading()), denoiser(reshading()));
     for frame in &frames[..3] {
         let host = Uploaded::new(gpu(), frame);
         let usage = wgpu::TextureUsages::TEXTURE_BINDING
@@ -98,7 +98,7 @@ fn the_modes_without_a_filter_show_the_samples_and_their_mean() {
 #[test]
 fn black_texels_stay_black() {
     let frames = recorded(Settings::adaptive());
-    let (mut printed, mut blank) = (denoiser(Settings::adaptive()), denoiser(Settings::adaptive()));
+    let (mut printed, mut blank) = (denoiser(reshading()), denoiser(reshading()));
     let is_ink = |i: usize| (i % SIZE[0] as usize + i / SIZE[0] as usize).is_multiple_of(2);
     for frame in &frames[..6] {
         let mut ink = frame.clone();

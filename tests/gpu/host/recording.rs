@@ -1,6 +1,6 @@
 //! How a host records its frames makes no difference, and what it changes between them begins anew.
 
-use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, replay, target, upload};
+use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, replay, reshading, target, upload};
 use crate::common::gpu::{Gpu, gpu};
 use crate::common::stage::Stage;
 use crate::common::statistics::Rgb;
@@ -15,9 +15,9 @@ fn record(denoiser: &mut Denoiser, gpu: &Gpu, encoder: &mut CommandEncoder, host
 #[test]
 fn three_frames_and_two_denoisers_may_share_an_encoder() {
     let frames = recorded(Settings::adaptive());
-    let alone = replay(&mut denoiser(Settings::adaptive()), &frames[..6]);
+    let alone = replay(&mut denoiser(reshading()), &frames[..6]);
     let other_alone = replay(&mut denoiser(Settings::classic()), &frames[..6]);
-    let (mut one, mut other) = (denoiser(Settings::adaptive()), denoiser(Settings::classic()));
+    let (mut one, mut other) = (denoiser(reshading()), denoiser(Settings::classic()));
     let [a, b] = [0; 2].map(|_| target());
     for three in 0..2 {
         let hosts: Vec<Uploaded> = frames[3 * three..3 * three + 3].iter().map(|f| Uploaded::new(gpu(), f)).collect();
@@ -45,7 +45,7 @@ fn a_device_that_is_strict_about_webgpu_suffices() {
         let host = Uploaded::new(&strict, frame);
         strict.submit(|encoder| record(&mut there, &strict, encoder, &host, &target));
     }
-    let here = replay(&mut denoiser(Settings::adaptive()), &frames[..4]);
+    let here = replay(&mut denoiser(reshading()), &frames[..4]);
     assert_eq!(bytemuck::pod_collect_to_vec::<u8, [f32; 4]>(&strict.read(target.texture())).len(), here[3].len());
     let there: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&strict.read(target.texture()));
     assert!(there.iter().zip(&here[3]).all(|(a, b)| a[..3] == b[..]));
@@ -140,7 +140,7 @@ fn product(a: Rgb, b: Rgb) -> Rgb {
 /// The images of frames 4…7 after something was done to a denoiser that had frames 0…3.
 fn after(what: impl FnOnce(&mut Denoiser)) -> Vec<Vec<Rgb>> {
     let frames = recorded(Settings::adaptive());
-    let mut denoiser = denoiser(Settings::adaptive());
+    let mut denoiser = denoiser(reshading());
     replay(&mut denoiser, &frames[..4]);
     what(&mut denoiser);
     replay(&mut denoiser, &frames[4..8])
@@ -149,7 +149,7 @@ fn after(what: impl FnOnce(&mut Denoiser)) -> Vec<Vec<Rgb>> {
 #[test]
 fn what_begins_anew_and_what_does_not() {
     let frames = recorded(Settings::adaptive());
-    let fresh = replay(&mut denoiser(Settings::adaptive()), &frames[4..8]);
+    let fresh = replay(&mut denoiser(reshading()), &frames[4..8]);
     let continued = after(|_| {});
     assert_ne!(fresh[0], continued[0]);
     assert_eq!(after(Denoiser::reset), fresh);
@@ -182,7 +182,7 @@ fn what_begins_anew_and_what_does_not() {
             let host = Uploaded::new(gpu(), &frames[4]);
             let error = gpu().submit(|e| d.denoise(&gpu().device, e, &host.shading(&target()))).unwrap_err();
             assert!(matches!(error, Error::NotBegun), "{error}");
-            d.set_settings(Settings::adaptive()).unwrap();
+            d.set_settings(reshading()).unwrap();
         }),
         continued
     );
@@ -192,7 +192,7 @@ fn what_begins_anew_and_what_does_not() {
 #[test]
 fn a_frame_that_was_left_out_begins_anew() {
     let frames = recorded(Settings::adaptive());
-    for settings in [Settings::adaptive(), Settings::adaptive().constant(0.2)] {
+    for settings in [reshading(), Settings::adaptive().constant(0.2)] {
         let mut skipping = denoiser(settings.clone());
         replay(&mut skipping, &frames[..4]);
         let fresh = replay(&mut denoiser(settings), &frames[5..7]);
@@ -203,7 +203,7 @@ fn a_frame_that_was_left_out_begins_anew() {
 #[test]
 fn traced_and_hosted_frames_share_no_history() {
     let frames = recorded(Settings::adaptive());
-    let fresh = replay(&mut denoiser(Settings::adaptive()), &frames[4..6]);
+    let fresh = replay(&mut denoiser(reshading()), &frames[4..6]);
     let mut stage = Stage::built_in("cornell", "blink", SIZE, Settings::adaptive());
     stage.index = frames[0].index;
     stage.frames(4);

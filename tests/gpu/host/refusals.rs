@@ -1,6 +1,6 @@
 //! Each mistake is refused by name, and costs no history.
 
-use super::{SIZE, Uploaded, colors, denoiser, recorded, replay, target, upload};
+use super::{SIZE, Uploaded, colors, denoiser, recorded, replay, reshading, target, upload};
 use crate::common::gpu::gpu;
 use crate::common::stage::Stage;
 use asvgf::{
@@ -75,7 +75,7 @@ fn denoise(denoiser: &mut Denoiser, shading: &Shading<'_>) -> Error {
 #[test]
 fn every_view_is_checked_and_no_mistake_costs_history() {
     let frames = recorded(Settings::adaptive());
-    let mut tried = denoiser(Settings::adaptive());
+    let mut tried = denoiser(reshading());
     replay(&mut tried, &frames[..3]);
     let host = Uploaded::new(gpu(), &frames[3]);
     let target = target();
@@ -119,7 +119,7 @@ fn every_view_is_checked_and_no_mistake_costs_history() {
     assert!(matches!(error, Error::NoView { .. }), "{error}");
     // After all that the frame is what it would have been.
     gpu().submit(|e| tried.denoise(&gpu().device, e, &host.shading(&target))).unwrap();
-    let images = replay(&mut denoiser(Settings::adaptive()), &frames[..4]);
+    let images = replay(&mut denoiser(reshading()), &frames[..4]);
     assert_eq!(colors(&target), images[3]);
 }
 
@@ -186,7 +186,7 @@ fn gradients_that_the_frames_cannot_have() {
 fn a_view_of_a_frame_that_was_dropped_says_what_to_finish() {
     let frames = recorded(Settings::adaptive());
     let target = target();
-    let mut tried = denoiser(Settings::adaptive());
+    let mut tried = denoiser(reshading());
     let show =
         |tried: &mut Denoiser| gpu().submit(|e| tried.show(&gpu().device, e, View::Depth, Default::default(), &target));
     let drops: [fn(&mut Denoiser); 3] =

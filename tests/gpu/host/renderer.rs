@@ -1,6 +1,6 @@
 //! The example's renderer: what its shader is told to repeat, it repeats.
 
-use super::{colors, difference};
+use super::{colors, difference, reshading};
 use crate::common::gpu::gpu;
 use asvgf::{Denoiser, DenoiserDescriptor, Settings, Shading, Surfaces, View, ViewOptions};
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
@@ -28,7 +28,7 @@ impl Stage {
     }
 
     fn of_size(size: [u32; 2]) -> Self {
-        let descriptor = DenoiserDescriptor { size, settings: Settings::adaptive(), views: true, ..Default::default() };
+        let descriptor = DenoiserDescriptor { size, settings: reshading(), views: true, ..Default::default() };
         Self {
             renderer: Renderer::new(&gpu().device, size),
             denoiser: Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap(),
