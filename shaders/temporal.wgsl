@@ -72,15 +72,16 @@
 #endif
 
 #ifdef STEADY
-// How much of the last output is blended into this one: nothing where λ says that the light has changed, and as much as a mean over
-// the k frames before would have, up to a limit, beyond which it lags. Between pixels a bilinear tap blurs, each frame anew: there it
-// counts less, and not at all in the middle of four.
-fn steadiness(lambda: f32, length: f32, motion: vec2<f32>) -> f32 {
+// How much of the last output is blended into this one. With k frames before this one it is k/(k + 2), less than a mean of all would
+// have, as the first outputs are the noisiest; up to a limit, beyond which it lags. Nothing where the light has changed: as far as λ says so,
+// and where the history ratio is off 1 by a 20th. Between pixels a bilinear tap blurs, in each frame anew: there it counts less, and
+// in the middle of four not at all.
+fn steadiness(lambda: f32, ratio: f32, length: f32, motion: vec2<f32>) -> f32 {
     let k = max(length - 1.0, 0.0);
-    let unchanged = (1.0 - lambda) * (1.0 - lambda);
+    let unchanged = (1.0 - lambda) * (1.0 - lambda) * max(1.0 - 20.0 * abs(ratio - 1.0), 0.0);
     let f = fract(motion);
     let between = 2.0 * dot(f, vec2(1.0) - f);
-    return min(unchanged * unchanged * k / (k + 1.0), frame.steadiness) * max(1.0 - between, 0.0);
+    return min(unchanged * k / (k + 2.0), frame.steadiness) * max(1.0 - between, 0.0);
 }
 #endif
 
@@ -234,8 +235,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         last_output = history.output;
 #ifdef HISTORY_RATIO
         last_output *= change.ratio.xyz;
+        steady = steadiness(lambda, change.ratio.w, length, moved);
+#else
+        steady = steadiness(lambda, 1.0, length, moved);
 #endif
-        steady = steadiness(lambda, length, moved);
 #endif
     }
 #ifdef MISSING_SAMPLES

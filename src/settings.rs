@@ -203,7 +203,7 @@ impl Default for FilterSettings {
             ridge_noise: 1.5,
             iterations: 4,
             final_iteration: true,
-            steadiness: 0.75,
+            steadiness: 0.85,
             converged: 0.03,
             sigma_luminance: 4.0,
             sigma_depth: 0.0025,

@@ -61,7 +61,14 @@ pub(crate) fn step(
         View::PairBefore => before,
         _ => Slot::Now(Image::Radiance),
     };
-    let known = [Feature::TemporalOnly, Feature::Steady, Feature::Albedo, Feature::DirectEmission, Feature::Background, Feature::Pairs];
+    let known = [
+        Feature::TemporalOnly,
+        Feature::Steady,
+        Feature::Albedo,
+        Feature::DirectEmission,
+        Feature::Background,
+        Feature::Pairs,
+    ];
     let mut features = plan.features.and(Features::of(&known));
     if !matches!(view, View::Denoised | View::Noisy | View::Emission) {
         features = features.without(Feature::DirectEmission);

@@ -201,7 +201,10 @@ fn filter(
         (
             RidgeByNoise,
             filter.local_linear_fit && filter.ridge_noise > 0.0,
-            ["the plane follows a slope as far as that is not noise", "the plane's ridge is constant, or there is none"],
+            [
+                "the plane follows a slope as far as that is not noise",
+                "the plane's ridge is constant, or there is none",
+            ],
         ),
         (
             SmallKernel,
