@@ -121,7 +121,7 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, ke
 #ifdef LOCAL_LINEAR_FIT
 #ifdef RIDGE_BY_NOISE
 // Within these parts of the ridge that is set: below, the plane follows what its taps' variances do not know; above, it is the mean.
-const RIDGE_LEAST: f32 = 0.3;
+const RIDGE_LEAST: f32 = 0.5;
 const RIDGE_MOST: f32 = 8.0;
 #endif
 

@@ -7,9 +7,13 @@
 #ifdef DIAGNOSTICS
 #import asvgf::counts::counts
 #endif
-#ifdef HOST_LIGHT
+#ifdef MODULATED
 #ifdef ALBEDO
-#import asvgf::host_light::host_albedo
+#ifdef HOST_LIGHT
+#import asvgf::host_light::host_divisor
+#else
+#import asvgf::host_light::LEAST_ALBEDO
+#endif
 #endif
 #endif
 
@@ -41,10 +45,10 @@ fn divisor_at(pixel: vec2<i32>) -> vec3<f32> {
 #ifdef MODULATED
 #ifdef ALBEDO
 #ifdef HOST_LIGHT
-    // Asked for where there is a surface alone.
-    divisor = host_albedo(pixel, true);
+    divisor = host_divisor(pixel);
 #else
-    divisor = textureLoad(albedo, pixel, 0).xyz;
+    // 0 where the surface reflects nothing.
+    divisor = max(textureLoad(albedo, pixel, 0).xyz, vec3(LEAST_ALBEDO));
 #endif
 #ifdef LUMINANCE_PAIRS
     divisor = vec3(luminance(divisor));

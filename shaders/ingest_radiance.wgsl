@@ -1,4 +1,4 @@
-// A host's radiance as the filter's own images: demodulated, r = max(radiance − emission, 0) / max(albedo, 10⁻³), so that no
+// A host's radiance as the filter's own images: demodulated, r = max(radiance − emission, 0) / clamp(albedo, 0.02, 1), so that no
 // detail of textures is blurred, and cleaned before it reaches history.
 
 #import asvgf::frame::inside
@@ -8,7 +8,7 @@
 #endif
 #import asvgf::host_light::host_radiance
 #ifdef ALBEDO
-#import asvgf::host_light::host_albedo
+#import asvgf::host_light::{LEAST_ALBEDO, host_albedo}
 #endif
 #ifdef DIRECT_EMISSION
 #import asvgf::host_light::host_emission
@@ -59,7 +59,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef RESHADE
     // That surface's albedo is the one to divide by.
     if repeats {
-        divisor = max(textureLoad(albedo_previous, previous_pixel(record), 0).xyz, vec3(1e-3));
+        divisor = max(textureLoad(albedo_previous, previous_pixel(record), 0).xyz, vec3(LEAST_ALBEDO));
     }
 #endif
 #else

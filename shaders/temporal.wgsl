@@ -72,16 +72,15 @@
 #endif
 
 #ifdef STEADY
-// How much of the last output is blended into this one. With k frames before this one it is k/(k + 2), less than a mean of all would
-// have, as the first outputs are the noisiest; up to a limit, beyond which it lags. Nothing where the light has changed: as far as λ says so,
-// and where the history ratio is off 1 by a 20th. Between pixels a bilinear tap blurs, in each frame anew: there it counts less, and
-// in the middle of four not at all.
+// How much of the last output is blended into this one: with k frames before this one k/(k + 1), as in a mean of all outputs, up to a limit,
+// beyond which it lags. Nothing where the light has changed: as far as λ says so, and where the history ratio is off 1 by a 20th.
+// Between pixels a bilinear tap blurs, in each frame anew: there it counts less, and in the middle of four not at all.
 fn steadiness(lambda: f32, ratio: f32, length: f32, motion: vec2<f32>) -> f32 {
     let k = max(length - 1.0, 0.0);
     let unchanged = (1.0 - lambda) * (1.0 - lambda) * max(1.0 - 20.0 * abs(ratio - 1.0), 0.0);
     let f = fract(motion);
     let between = 2.0 * dot(f, vec2(1.0) - f);
-    return min(unchanged * k / (k + 2.0), frame.steadiness) * max(1.0 - between, 0.0);
+    return min(unchanged * k / (k + 1.0), frame.steadiness) * max(1.0 - between, 0.0);
 }
 #endif
 

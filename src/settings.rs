@@ -151,7 +151,7 @@ pub struct FilterSettings {
     pub local_linear_fit: bool,
     /// Ridge on the slopes of that plane, > 0. Higher: closer to the mean. Lower: follows noise.
     pub ridge: f32,
-    /// By how much the ridge follows the noise of the slope, as a factor on its variance over its square, within 0.3…8 of `ridge`. Higher:
+    /// By how much the ridge follows the noise of the slope, as a factor on its variance over its square, within ½…8 times `ridge`. Higher:
     /// smoother where there is noise, blurrier penumbrae. Lower: the plane follows noise. 0: the ridge is constant. Changing it from or to
     /// 0 compiles.
     pub ridge_noise: f32,
@@ -203,7 +203,7 @@ impl Default for FilterSettings {
             ridge_noise: 1.5,
             iterations: 4,
             final_iteration: true,
-            steadiness: 0.85,
+            steadiness: 0.9,
             converged: 0.03,
             sigma_luminance: 4.0,
             sigma_depth: 0.0025,

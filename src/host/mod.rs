@@ -57,7 +57,7 @@ pub struct Shading<'a> {
     /// Take other random numbers in each frame: the same noise cannot be averaged.
     pub radiance: &'a TextureView,
     /// Linear reflectance at the visible surface, 0…1: `rgba8unorm` and `bgra8unorm` (`-srgb` too), `rgb10a2unorm`, and the formats
-    /// of `radiance`. Radiance is divided by it before filtering (at least by 10⁻³) and the result multiplied, so that textures stay
+    /// of `radiance`. Radiance is divided by it before filtering (by at least 0.02, at most 1) and the result multiplied, so that textures stay
     /// sharp. An albedo that is no number divides by nothing. Where there is none, radiance is filtered with its textures;
     /// a frame with an albedo after one without starts a new history.
     pub albedo: Option<&'a TextureView>,

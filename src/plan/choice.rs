@@ -164,7 +164,7 @@ fn filter(
         ),
         (
             AcrossSurfaces,
-            gradient && !statistics && filter.gradient_across_surfaces,
+            gradient && filter.gradient_across_surfaces,
             ["λ heeds what is around", "λ is that of the surface alone, or 0"],
         ),
         (ExternalLambda, source == Source::Lambda, ["λ is the host's", "the host gives no λ"]),

@@ -217,7 +217,7 @@ mod tests {
 
     /// Plans of a host's frames that differ in what they keep, each with what it is if everything changes.
     fn plans() -> Vec<(Plan, Plan)> {
-        let gradients = [Gradient::Reshade, Gradient::Pairs, Gradient::Lambda, Gradient::Off];
+        let gradients = [Gradient::Reshade, Gradient::Pairs, Gradient::Statistics, Gradient::Lambda, Gradient::Off];
         let filters = gradients.map(|gradient| FilterSettings { gradient, ..Default::default() });
         let filters = filters.into_iter().chain([FilterSettings::classic()]);
         let short = |f: FilterSettings| {
@@ -319,11 +319,20 @@ mod tests {
     fn frames_take_no_more_than_the_images_that_are_alive_at_once() {
         // Whole strata.
         let size = [300, 300];
-        let bytes = |gradient, traits: HostTraits| {
-            let filter = FilterSettings { gradient, ..Default::default() };
+        let bytes_of = |filter: FilterSettings, traits: HostTraits| {
             let settings = Settings { filter, ..Settings::adaptive() };
             let plan = Plan::hosted(&traits, &settings, Changes::ANY, TextureFormat::Rgba32Float);
             plan.bytes(size, false) as f64 / f64::from(size[0] * size[1])
+        };
+        let bytes = |gradient, traits| {
+            let bare = bytes_of(FilterSettings { gradient, steadiness: 0.0, ..Default::default() }, traits);
+            // The output, now and before.
+            assert_eq!(
+                bytes_of(FilterSettings { gradient, ..Default::default() }, traits),
+                bare + 16.0,
+                "{gradient:?}"
+            );
+            bare
         };
         let alone = HostTraits::default();
         let all = HostTraits { albedo: true, emission: true, ..alone };
@@ -334,6 +343,9 @@ mod tests {
         // And the strata's records, their pairs, which two by two take turns, and the host's pairs of half the size.
         let strata = 5.0 * 16.0 / 9.0;
         assert_eq!(bytes(Gradient::Pairs, alone), 32.0 + strata + 16.0 / 9.0);
+        // And the strata's records, three levels of means, in two images each, and the one that the next is made from.
+        assert_eq!(bytes(Gradient::Statistics, alone), 32.0 + 9.0 * 16.0 / 9.0);
+        assert_eq!(bytes(Gradient::Automatic, all), 32.0 + 9.0 * 16.0 / 9.0);
         // And motion and radiance; the last frame's gives way to the history.
         assert_eq!(bytes(Gradient::Reshade, alone), 48.0 + strata);
         // And the albedo of both frames, and the emission.

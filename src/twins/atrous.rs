@@ -6,7 +6,7 @@ use super::plane::{V, add, dot, scale, sub};
 use super::random::Random;
 use super::strata::falloff;
 use crate::passes::atrous;
-use crate::plan::{Feature, Features};
+use crate::plan::{Feature, Features, Step};
 use crate::{FilterSettings, Settings, Stops};
 
 /// What the documented formulas make of a pixel: colour, standard deviation, and the plain mean; its own, if it has converged.
@@ -39,8 +39,12 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
     let spline = |d: i32| [1.0, 2.0 / 3.0, 1.0 / 6.0][d.unsigned_abs() as usize];
     let mut taps: Vec<Tap> = vec![(1.0, [0.0; 2], own, deviation * deviation)];
     for (dx, dy) in (-2..=2).flat_map(|dy: i32| (-2..=2).map(move |dx: i32| (dx, dy))) {
-        let diamond = dx.abs() + dy.abs() <= 2;
-        if (dx, dy) == (0, 0) || !(diamond || features.has(Feature::FullKernel)) {
+        let within = if features.has(Feature::SmallKernel) {
+            dx.abs().max(dy.abs()) <= 1
+        } else {
+            features.has(Feature::FullKernel) || dx.abs() + dy.abs() <= 2
+        };
+        if (dx, dy) == (0, 0) || !within {
             continue;
         }
         let Some(i) = existing(x + dx * stride, y + dy * stride) else { continue };
@@ -75,7 +79,9 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
     let weight: f64 = taps.iter().map(|t| t.0).sum();
     let mean = scale(taps.iter().fold([0.0; 3], |s, t| add(s, scale(t.2, t.0))), 1.0 / weight);
     let spread = taps.iter().map(|t| t.0 * t.0 * t.3).sum::<f64>().sqrt() / weight;
-    let color = if features.has(Feature::LocalLinearFit) { fit(&taps, weight, mean, f.ridge.into()) } else { mean };
+    let noise = features.has(Feature::RidgeByNoise).then_some(f64::from(f.ridge_noise));
+    let color =
+        if features.has(Feature::LocalLinearFit) { fit(&taps, weight, mean, f.ridge.into(), noise) } else { mean };
     (color, spread, mean)
 }
 
@@ -97,9 +103,16 @@ fn foreshortening(bench: &Bench, [x, y]: [i32; 2], [dx, dy]: [i32; 2], normal: V
 type Tap = (f64, [f64; 2], V, f64);
 
 /// Weighted least squares of a plane with a ridge on its slopes, at the centre, within half and one and a half of the mean.
-fn fit(taps: &[Tap], weight: f64, mean: V, ridge: f64) -> V {
+/// With `noise`, the ridge follows the variance of Σw·(x − m)·l/Σw, and of y, over the square of the slope of the luminance l.
+fn fit(taps: &[Tap], weight: f64, mean: V, ridge: f64, noise: Option<f64>) -> V {
     let average = |g: &dyn Fn(&Tap) -> f64| taps.iter().map(|t| t.0 * g(t)).sum::<f64>() / weight;
     let m = [0, 1].map(|i| average(&|t| t.1[i]));
+    let ridge = noise.map_or(ridge, |noise| {
+        let slope = [0, 1].map(|i| average(&|t| (t.1[i] - m[i]) * luminance(t.2)));
+        let far = |t: &Tap| (t.1[0] - m[0]).powi(2) + (t.1[1] - m[1]).powi(2);
+        let variance = taps.iter().map(|t| (t.0 / weight).powi(2) * t.3 * far(t)).sum::<f64>();
+        ridge * (noise * variance / (slope[0].powi(2) + slope[1].powi(2) + 1e-37)).clamp(0.5, 8.0)
+    });
     let covariance = |i: usize, j: usize| average(&|t| (t.1[i] - m[i]) * (t.1[j] - m[j]));
     let (a, b, c) = (covariance(0, 0) + ridge, covariance(0, 1), covariance(1, 1) + ridge);
     [0, 1, 2].map(|channel| {
@@ -112,6 +125,11 @@ fn fit(taps: &[Tap], weight: f64, mean: V, ridge: f64) -> V {
 }
 
 fn check(settings: &Settings, features: &[Feature], iteration: u32) {
+    check_step(settings, &atrous::step(Features::of(features), iteration));
+}
+
+fn check_step(settings: &Settings, step: &Step) {
+    let iteration = step.iteration;
     for size in SIZES {
         let bench = Bench::new(size, settings.clone());
         let mut random = Random(u64::from(size[0]) + 100 * u64::from(iteration));
@@ -127,9 +145,8 @@ fn check(settings: &Settings, features: &[Feature], iteration: u32) {
                 }
             })
             .collect();
-        let step = atrous::step(Features::of(features), iteration);
         let half = |first: usize| image.iter().map(|t| [t[first], t[first + 1], 0, 0]).collect::<Vec<Texel>>();
-        let written = bench.run(&step, &[("color", half(0)), ("guide", half(2))]);
+        let written = bench.run(step, &[("color", half(0)), ("guide", half(2))]);
         for (x, y) in bench.pixels() {
             let i = bench.at(x, y).unwrap();
             let out = written["color_out"][i];
@@ -161,11 +178,25 @@ fn check(settings: &Settings, features: &[Feature], iteration: u32) {
 #[test]
 fn the_default_stops() {
     use Feature::*;
-    let sets: [&[Feature]; 4] = [&[], &[LocalLinearFit], &[FullKernel], &[FullKernel, LocalLinearFit, Feedback]];
+    let sets: [&[Feature]; 5] = [
+        &[],
+        &[LocalLinearFit],
+        &[LocalLinearFit, RidgeByNoise],
+        &[FullKernel],
+        &[FullKernel, LocalLinearFit, Feedback],
+    ];
     for features in sets {
         for iteration in [0, 1, 3] {
             check(&Settings::adaptive(), features, iteration);
         }
+    }
+}
+
+#[test]
+fn the_last_iteration_takes_the_nearest_taps() {
+    use Feature::*;
+    for features in [Features::of(&[LocalLinearFit, RidgeByNoise]), Features::of(&[FullKernel])] {
+        check_step(&Settings::adaptive(), &atrous::last_step(features, 4));
     }
 }
 

@@ -33,6 +33,7 @@ mod packing;
 mod properties;
 mod reshade;
 mod resolve;
+mod steady;
 mod strata;
 mod temporal;
 mod variance;

@@ -159,7 +159,7 @@ fn a_plan_can_be_read() {
         format!("{} dispatches", plan.steps.len()).as_str(),
         "no material has an image",
         "last history",
-        " → history",
+        " → reprojected, history",
         "atrous",
     ] {
         assert!(table.contains(expected), "`{expected}` is not in\n{table}");
@@ -167,7 +167,7 @@ fn a_plan_can_be_read() {
     let graph = plan.graph();
     assert!(graph.starts_with("flowchart TD\n"), "{graph}");
     for expected in [
-        "atrous[\"atrous ×4\"]:::pass",
+        "atrous[\"atrous ×5\"]:::pass",
         "i_last_history --> temporal",
         "temporal --> i_history",
         "resolve --> i_target",

@@ -3,8 +3,8 @@
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
     Kept, VARIANCE_UNIT, assert_close, depth, float, float_code, history_exponent, luminance, pack_history,
-    pack_motion, pack_rgb, radiance, rounding, unpack_history, unpack_motion, unpack_normal, unpack_rgb, variance_code,
-    word,
+    pack_motion, pack_rgb, radiance, rounding, unpack_history, unpack_motion, unpack_normal, unpack_rgb, unpack_tap,
+    variance_code, word,
 };
 use super::plane::{Pinhole, V, add, dot, scale, sub};
 use super::random::Random;
@@ -25,6 +25,7 @@ pub(super) struct Given {
     pub(super) radiance: Vec<Texel>,
     pub(super) history: Vec<Kept>,
     feedback: Vec<Texel>,
+    output: Vec<Texel>,
     samples: Vec<Texel>,
     gradient: Vec<Texel>,
     ratio: Vec<Texel>,
@@ -41,6 +42,9 @@ pub(super) struct Blended {
     pub(super) lambda: f64,
     /// Weight of the sample.
     alpha: f64,
+    /// The last output, reprojected and rescaled, and its weight in this one.
+    last_output: V,
+    steadiness: f64,
     /// A threshold was so near that rounding may decide otherwise.
     unsure: bool,
     /// The largest numbers that went in: errors are relative to these.
@@ -65,6 +69,7 @@ struct Before {
     weight: f64,
     /// Weight of all taps on the surface, whatever they have seen.
     surface: f64,
+    output: V,
 }
 
 impl Before {
@@ -74,7 +79,8 @@ impl Before {
             let s = 1.0 / self.weight;
             let mean = self.mean * s;
             let variance = self.variance * s + (self.square * s - mean * mean).max(0.0);
-            Self { color: scale(self.color, s), mean, variance, length: self.length * s, ..self }
+            let [color, output] = [self.color, self.output].map(|c| scale(c, s));
+            Self { color, mean, variance, length: self.length * s, output, ..self }
         })
     }
 }
@@ -120,6 +126,7 @@ impl Given {
             _ => color(r),
         });
         let feedback = each(&mut |r| color(r));
+        let output = each(&mut |r| color(r));
         let history = (0..count)
             .map(|_| {
                 let length = if gaps && random.below(4) == 0 { 0.0 } else { 1.0 + 20.0 * random.unit().powi(2) };
@@ -169,6 +176,7 @@ impl Given {
             radiance: radiance_now,
             history,
             feedback,
+            output,
             samples,
             gradient,
             ratio,
@@ -192,6 +200,7 @@ impl Given {
             ("radiance", self.radiance.clone()),
             ("history_previous", self.history.iter().map(|&h| pack_guide(&pack_history(h))).collect()),
             ("feedback_previous", self.feedback.clone()),
+            ("output_previous", self.output.clone()),
             ("samples", self.samples.clone()),
             ("gradient", self.gradient.clone()),
             ("ratio", self.ratio.clone()),
@@ -252,11 +261,16 @@ impl Given {
         let (color, mean) = self.stored(q);
         notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(h.variance.sqrt());
         sum.color = add(sum.color, scale(color, w));
+        sum.output = add(sum.output, scale(self.output_at(q), w));
         sum.mean += w * mean;
         sum.square += w * mean * mean;
         sum.variance += w * h.variance;
         sum.length += w * h.length;
         sum.weight += w;
+    }
+
+    fn output_at(&self, q: usize) -> V {
+        unpack_rgb([self.output[q][0], self.output[q][1]])
     }
 
     /// Colour and mean luminance of a texel of the history.
@@ -278,7 +292,7 @@ impl Given {
                 return None;
             }
             notes.largest = color.into_iter().fold(notes.largest.max(mean), f64::max).max(variance.sqrt());
-            return Some(Before { color, mean, variance, length, ..Default::default() });
+            return Some(Before { color, mean, variance, length, output: self.output_at(i), ..Default::default() });
         }
         let (mut sum, origin, point, base) = self.bilinear(i, x, y, notes);
         notes.unsure |= [sum.weight, sum.surface].iter().any(|w| (w - 0.01).abs() < 1e-4);
@@ -372,12 +386,16 @@ impl Given {
         let Some(mut before) = before else { return out };
         // A still image's history may be longer than others are allowed to be.
         let mut kept = before.length.min(f.max_history.into());
+        let mut rescaled = 1.0;
+        out.last_output = before.output;
         if self.has(Feature::Gradient) {
             let (ratio, lambda) = self.change(i, x, y, &mut out.unsure);
             out.lambda = lambda;
             if self.has(Feature::HistoryRatio) {
                 before.color = [0, 1, 2].map(|c| before.color[c] * ratio[c]);
                 before.mean *= ratio[3];
+                rescaled = ratio[3];
+                out.last_output = [0, 1, 2].map(|c| before.output[c] * ratio[c]);
                 before.variance *= ratio[3].powi(2);
                 out.largest *= 4.0;
             }
@@ -417,6 +435,13 @@ impl Given {
             out.length = if trusted > 0.5 { trusted.max(1.0) } else { 0.0 };
         }
         out.alpha = alpha;
+        // k frames before this one; nothing where the light changes, and less between pixels.
+        let k = (out.length - 1.0).max(0.0);
+        let f = if self.has(Feature::Still) { [0.0; 2] } else { [0, 1].map(|a| self.motion[i][a].rem_euclid(1.0)) };
+        let between = 2.0 * f.iter().map(|f| f * (1.0 - f)).sum::<f64>();
+        let unchanged = (1.0 - out.lambda).powi(2) * (1.0 - 20.0 * (rescaled - 1.0).abs()).max(0.0);
+        let most = f64::from(self.bench.settings.filter.steadiness);
+        out.steadiness = (unchanged * k / (k + 1.0)).min(most) * (1.0 - between).max(0.0);
         let deviation = l - before.mean;
         out.color = add(scale(before.color, 1.0 - alpha), scale(sample, alpha));
         out.mean = before.mean + alpha * deviation;
@@ -467,6 +492,14 @@ fn check(features: &[Feature], settings: &Settings) {
             }
             for (found, expected) in weights.into_iter().flatten().zip([expected.alpha, expected.lambda]) {
                 assert_close(found, expected, 2e-3, || format!("{}: α, λ", what()));
+            }
+            if let Some(reprojected) = written.get("reprojected_out") {
+                let (output, weight) = unpack_tap(reprojected[i]);
+                assert_close(weight, expected.steadiness, 0.04, || format!("{}: steadiness", what()));
+                let largest = expected.last_output.into_iter().fold(0.0, f64::max);
+                for (found, expected) in output.into_iter().zip(expected.last_output) {
+                    assert_close(found, expected, 5e-3 * largest + 1e-9, || format!("{}: last output", what()));
+                }
             }
             if expected.length == 0.0 {
                 if given.radiance[i][1] & INFINITE != 0 {
@@ -552,6 +585,11 @@ fn every_reachable_kind_of_blending() {
     check(&[Gradient, InPlace, HistoryRatio], &power(3.5));
     check(&[Gradient, InPlace, BlendByLambda, Feedback], &power(2.0));
     check(&[Gradient, InPlace, HistoryRatio, BlendByLambda, Feedback, Objects], &power(0.0));
+    // Steadied by the last output.
+    check(&[Steady, Objects], &power(3.5));
+    check(&[Steady, Still], &power(3.5));
+    check(&[Steady, Gradient, InPlace, AcrossSurfaces, HistoryRatio], &power(3.5));
+    check(&[Steady, MissingSamples, ExternalLambda], &power(3.5));
     // For views.
     check(&[Gradient, InPlace, AcrossSurfaces, HistoryRatio, KeepWeights], &power(3.5));
     check(&[Gradient, InPlace, BlendByLambda, Feedback, KeepWeights], &power(2.0));

@@ -1,6 +1,7 @@
 //! What happens over frames.
 
 mod change;
+mod flicker;
 mod leaving_out;
 mod lifecycle;
 mod motion;

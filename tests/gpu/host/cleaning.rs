@@ -1,6 +1,6 @@
 //! What is not a number, infinite or negative neither spreads nor goes uncounted.
 
-use super::{Recorded, SIZE, Uploaded, colors, recorded, reshading, target, upload};
+use super::{Recorded, SIZE, Uploaded, colors, recorded, target, upload};
 use crate::common::gpu::gpu;
 use crate::common::statistics::Rgb;
 use asvgf::{Denoiser, DenoiserDescriptor, FilterSettings, Gradient, InputCounts, Pairs, Settings, Shading, View};

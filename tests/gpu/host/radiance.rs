@@ -98,7 +98,7 @@ fn the_modes_without_a_filter_show_the_samples_and_their_mean() {
 #[test]
 fn black_texels_stay_black() {
     let frames = recorded(Settings::adaptive());
-    let (mut printed, mut blank) = (denoiser(reshading()), denoiser(reshading()));
+    let (mut printed, mut blank) = (denoiser(Settings::adaptive()), denoiser(Settings::adaptive()));
     let is_ink = |i: usize| (i % SIZE[0] as usize + i / SIZE[0] as usize).is_multiple_of(2);
     for frame in &frames[..6] {
         let mut ink = frame.clone();
@@ -122,5 +122,7 @@ fn black_texels_stay_black() {
         let (black, paper, expected) = (mean(&images[0], true), mean(&images[0], false), mean(&images[1], false));
         println!("frame {}: ink {black:.5}, paper {paper:.4}, without ink {expected:.4}", frame.index);
         assert!(black < 2e-3 * expected, "frame {}: ink of {black} on paper of {paper}", frame.index);
+        // Nor does it darken the paper, of which half as many samples are left.
+        assert!((paper / expected - 1.0).abs() < 0.06, "frame {}: paper of {paper}, not {expected}", frame.index);
     }
 }

@@ -38,7 +38,7 @@ fn three_frames_and_two_denoisers_may_share_an_encoder() {
 fn a_device_that_is_strict_about_webgpu_suffices() {
     let strict = Gpu::new(InstanceFlags::STRICT_WEBGPU_COMPLIANCE);
     let frames = recorded(Settings::adaptive());
-    let descriptor = DenoiserDescriptor { size: SIZE, diagnostics: true, ..Default::default() };
+    let descriptor = DenoiserDescriptor { size: SIZE, settings: reshading(), diagnostics: true, ..Default::default() };
     let mut there = Denoiser::new(&strict.device, &strict.queue, &descriptor).unwrap();
     let target = strict.target(SIZE, TextureFormat::Rgba32Float);
     for frame in &frames[..4] {
@@ -203,7 +203,7 @@ fn a_frame_that_was_left_out_begins_anew() {
 #[test]
 fn traced_and_hosted_frames_share_no_history() {
     let frames = recorded(Settings::adaptive());
-    let fresh = replay(&mut denoiser(reshading()), &frames[4..6]);
+    let fresh = replay(&mut denoiser(Settings::adaptive()), &frames[4..6]);
     let mut stage = Stage::built_in("cornell", "blink", SIZE, Settings::adaptive());
     stage.index = frames[0].index;
     stage.frames(4);

@@ -2,7 +2,7 @@
 
 use super::{colors, difference, reshading};
 use crate::common::gpu::gpu;
-use asvgf::{Denoiser, DenoiserDescriptor, Settings, Shading, Surfaces, View, ViewOptions};
+use asvgf::{Denoiser, DenoiserDescriptor, Shading, Surfaces, View, ViewOptions};
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 #[allow(dead_code, reason = "shared with the example, which uses the rest")]

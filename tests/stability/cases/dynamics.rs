@@ -88,7 +88,7 @@ pub const CASES: &[Case] = &[
         name: "frame rates",
         varied: "a light that moves over the wall in 240, 60, 15, 4 frames; noise",
         quantity: "largest relative error of the image's mean in all frames from 16 on",
-        bound: NOISE + 0.03,
+        bound: NOISE + 0.04,
         origin: "nothing depends on time, only on what changed since the last frame; and bias",
         measure: frame_rates,
         breaks: Breaks::Never("there is no time in the filter"),
