@@ -120,7 +120,7 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, ke
 
 #ifdef LOCAL_LINEAR_FIT
 #ifdef RIDGE_BY_NOISE
-// Within these parts of the ridge that is set: below, the plane follows what its taps' variances do not know; above, it is the mean.
+// Limits of the ridge, as factors on `frame.ridge`. Lower: the plane follows noise of which the taps' variances say nothing. Higher: it is the mean.
 const RIDGE_LEAST: f32 = 0.5;
 const RIDGE_MOST: f32 = 8.0;
 #endif
@@ -135,7 +135,7 @@ fn fit(sums: Sums) -> vec3<f32> {
     let y = sums.color_y * scale - m.y * mean;
     var ridge = frame.ridge;
 #ifdef RIDGE_BY_NOISE
-    // A slope that is noise is not followed, one that is none is: a ridge in proportion to the variance of the slope over its square.
+    // The plane follows a slope only where it exceeds its own noise: the ridge is in proportion to the slope's variance over its square.
     let noise = (sums.variance_spread - 2.0 * dot(m, sums.variance_offset) + dot(m, m) * sums.variance) * scale * scale;
     let slope = vec2(luminance(x), luminance(y));
     ridge *= clamp(frame.ridge_noise * max(noise, 0.0) / (dot(slope, slope) + 1e-37), RIDGE_LEAST, RIDGE_MOST);

@@ -8,8 +8,8 @@
 //   s = mean of the new samples, m = mean of the histories, over the N pixels of the stratum that see the surface of its reference
 //   V = Σ(v + v/n)/N², the variance of s − m in luminance; v that of a sample, as the history has it, n its length
 //
-// The reference is the first pixel with a history, from the centre on. What a history of one sample knows of v is nothing: until n is 5,
-// a deviation of twice the mean is mixed in.
+// The reference is the first pixel with a history, from the centre on. A history of one sample says nothing about v: until n is 5, a
+// deviation of twice the mean is mixed in.
 
 #import asvgf::frame::{frame, inside, sample_point, world_position}
 #import asvgf::color::luminance

@@ -26,8 +26,8 @@
 @group(0) @binding(9) var ratio_out: texture_storage_2d<rgba32uint, write>;
 #endif
 
-// Luminances below which there is nothing to compare, as in gradient.wgsl.
-const DARK: f32 = 7.9e-31;
+// Luminances below which there is nothing to compare: their squares, of which the noise is made, are still normal numbers.
+const DARK: f32 = 1e-17;
 
 // Times the variance that is taken for noise: for λ, and for ρ.
 const LAMBDA_NOISE: f32 = 6.0;
@@ -51,16 +51,19 @@ fn refine(found: Found, means: Means) -> Found {
     let difference = (s - expected) / larger;
     let square = difference * difference;
     let scale = ratio.w / larger;
-    let seen = (means.now_square / larger - 2.0 * scale * means.product) / larger + scale * scale * means.before_square;
-    let noise = max(scale * scale * means.variance, seen);
+    let seen = (means.now_square / larger - 2.0 * scale * means.product) / larger + scale * (scale * means.before_square);
+    let noise = max(scale * (scale * means.variance), seen);
     let lambda = max(found.lambda, sqrt(max(square - LAMBDA_NOISE * noise, 0.0)));
 #ifdef HISTORY_RATIO
-    // Of what comes out of the dark nothing is left by any ratio.
+    // What comes out of the dark has no ratio, as its quotient may be infinite.
+    if m <= 1e-6 * s {
+        return Found(ratio, lambda);
+    }
     let e = frame.ratio_prior * m;
     let level = (s + e * ratio.w) / max(m + e, DARK);
     let limit = frame.ratio_chroma_limit;
     let color = clamp((means.now + e * ratio.xyz) / max(means.before + e, vec3(DARK)), vec3(level / limit), vec3(level * limit));
-    let believed = select(max(0.0, 1.0 - RATIO_NOISE * noise / max(square, 1e-12)), 0.0, m <= 1e-6 * s);
+    let believed = max(0.0, 1.0 - RATIO_NOISE * noise / max(square, 1e-12));
     return Found(ratio + (vec4(color, level) - ratio) * believed, lambda);
 #else
     return Found(ratio, lambda);

@@ -7,13 +7,9 @@
 #ifdef DIAGNOSTICS
 #import asvgf::counts::counts
 #endif
-#ifdef MODULATED
-#ifdef ALBEDO
 #ifdef HOST_LIGHT
-#import asvgf::host_light::host_divisor
-#else
-#import asvgf::host_light::LEAST_ALBEDO
-#endif
+#ifdef ALBEDO
+#import asvgf::host_light::host_albedo
 #endif
 #endif
 
@@ -45,10 +41,10 @@ fn divisor_at(pixel: vec2<i32>) -> vec3<f32> {
 #ifdef MODULATED
 #ifdef ALBEDO
 #ifdef HOST_LIGHT
-    divisor = host_divisor(pixel);
+    // Asked for where there is a surface alone.
+    divisor = host_albedo(pixel, true);
 #else
-    // 0 where the surface reflects nothing.
-    divisor = max(textureLoad(albedo, pixel, 0).xyz, vec3(LEAST_ALBEDO));
+    divisor = textureLoad(albedo, pixel, 0).xyz;
 #endif
 #ifdef LUMINANCE_PAIRS
     divisor = vec3(luminance(divisor));

@@ -99,20 +99,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #endif
 #ifdef ALBEDO
-    let reflectance = albedo_at(pixel, hit);
-    result *= reflectance;
+    result *= albedo_at(pixel, hit);
 #endif
 #ifdef DIRECT_EMISSION
     result += emission_at(pixel);
 #endif
 #ifdef ACCUMULATE
     // What is missing is no sample of the mean.
-    var sampled = is_sample(arrived);
-#ifdef ALBEDO
-    // Black is a sample of the picture, though it is none of the light.
-    sampled |= all(reflectance <= vec3(0.0));
-#endif
-    var sum = select(vec4(0.0), vec4(result, 1.0), sampled);
+    var sum = select(vec4(0.0), vec4(result, 1.0), is_sample(arrived));
     if frame.continued != 0u {
         sum += textureLoad(sum_previous, pixel, 0);
     }

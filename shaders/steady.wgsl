@@ -1,5 +1,5 @@
 // Blends the last output into this one: what is averaged over frames in the history still moves as 1/n, and what the spatial filter makes
-// of it moves with its weights. Both are seen as a shimmer before they are seen as an error.
+// of it moves with its weights. The eye sees such a shimmer before it sees an error.
 //
 //   O = C + b·(clamp(ρ·O', lo, hi) − C),  lo = max(min(μ − 1.5·s, C), C − 2·σ),  hi = min(max(μ + 1.5·s, C), C + 2·σ)
 //
@@ -9,7 +9,7 @@
 //
 // Why so narrow: a cold start blurs what it does not know yet. Were a highlight within its neighbours' bounds, or nothing asked of the
 // noise, that blur would stay for a dozen frames, beside a sun as bright as a lamp. C itself is within, as a steady highlight of one pixel
-// would else lose a third.
+// would otherwise lose a third.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance

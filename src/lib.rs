@@ -22,7 +22,8 @@
 //!     trace: impl FnOnce(&mut wgpu::CommandEncoder, Option<asvgf::Reshade>),
 //! ) -> Result<(), Error> {
 //!     let surfaces = Surfaces::new(camera, index, &images.depth, &images.normal, &images.motion);
-//!     // One pixel of each 3×3 is to repeat a path of the last frame: `RESHADE_WGSL` tells the host's shader which.
+//!     // With `Gradient::Reshade` one pixel of each 3×3 is to repeat a path of the last frame: `RESHADE_WGSL` tells the host's
+//!     // shader which. By default α adapts to what the image alone shows, and this is `None`.
 //!     let reshade = denoiser.begin_frame(device, encoder, &surfaces)?;
 //!     trace(encoder, reshade);
 //!     let shading = Shading { albedo: Some(&images.albedo), ..Shading::new(&images.radiance, &images.target) };

@@ -46,7 +46,8 @@ impl Settings {
         // As many samples as such an average is worth, (2 − α)/α.
         let worth = if alpha > 0.0 { (2.0 / alpha - 1.0).min(LONGEST_HISTORY) } else { 0.0 };
         let max_history = self.filter.max_history.max(worth);
-        let filter = FilterSettings { gradient: Gradient::Off, alpha, max_history, ..self.filter };
+        // Nobody says where the light has changed: the last output would stay there, too.
+        let filter = FilterSettings { gradient: Gradient::Off, alpha, max_history, steadiness: 0.0, ..self.filter };
         Self { filter, ..self }
     }
 
@@ -160,8 +161,8 @@ pub struct FilterSettings {
     /// One more iteration over the nine nearest taps: less error and less flicker, for a seventh of the spatial filter's time. Changing it compiles.
     pub final_iteration: bool,
     /// Most that the last output weighs in this one, 0…1, where the surface is the same, its light has not changed, and the image rests
-    /// on its pixels. Higher: less flicker, and more lag where a change is missed. 0: none, which saves a pass and 24 bytes per pixel.
-    /// Changing it from or to 0 compiles, and starts a new history.
+    /// on its pixels. Higher: less flicker, and more lag where a change is missed. 0: none, which saves a pass and 16 bytes per pixel.
+    /// Changing it from or to 0 compiles; from 0, it starts a new history, as does raising `iterations` from 0.
     pub steadiness: f32,
     /// Pixels whose noise (deviation over luminance) is below this are left as they are, in whatever iteration they get there, 0…1.
     /// Higher: less time where there is little noise, and more of it stays. Lower: the filter blurs what no longer needs it. 0: never.
@@ -251,16 +252,16 @@ impl FilterSettings {
 /// Where the temporal gradient, and with it the adaptive α, comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Gradient {
-    /// The best that a frame allows: [`Gradient::Reshade`] where the denoiser traces the paths; of a host's frame [`Gradient::Lambda`]
-    /// or [`Gradient::Pairs`] if it hands in the one or the other, and [`Gradient::Statistics`] else.
+    /// [`Gradient::Reshade`] where the denoiser traces the paths. In a host's frame: [`Gradient::Lambda`] if it has λ, else
+    /// [`Gradient::Pairs`] if it has pairs, else [`Gradient::Statistics`].
     #[default]
     Automatic,
     /// One pixel of each 3×3 repeats a path of the last frame, random numbers included, in this frame's scene (Schied et al.
     /// 2018): sees every change of light, shadow and geometry. Costs no extra ray. Where the host renders,
     /// [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) says which pixels and paths.
     Reshade,
-    /// The mean of the new samples against that of their histories, over 21 to 85 pixels of a surface, less the noise of both: needs
-    /// nothing but the image and its G-buffer. Sees every change that is greater than the noise of some hundred samples, a few frames later
+    /// The mean of the new samples against that of their histories, over 21 to 93 pixels of a surface around, less the noise of both: needs
+    /// nothing but the image and its G-buffer. Sees every change that is greater than the noise of a thousand samples, a few frames later
     /// than repeated paths do where light moves.
     Statistics,
     /// Deferred Blinn–Phong shading of this and the last frame's lights, without shadows: no ray, no noise, blind to what

@@ -63,7 +63,8 @@ impl Denoiser {
         let &Frame { scene, index, target, .. } = frame;
         let asked = self.settings.filter.gradient;
         if self.settings.mode == Mode::Denoise && matches!(asked, Gradient::Pairs | Gradient::Lambda) {
-            let reason = "comes from a host's renderer: choose Reshade, BlinnPhong or Off for a scene";
+            let reason =
+                "comes from a host's renderer: choose Automatic, Reshade, Statistics, BlinnPhong or Off for a scene";
             return Err(Error::GradientSource { asked, reason });
         }
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;

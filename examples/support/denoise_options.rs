@@ -47,7 +47,7 @@ Denoiser
   --preset NAME         default, or classic: the formulas as published       [default]
   --alpha KIND          adaptive, or constant:A with 0…1 as the weight of each new
                         frame (constant alone: 0.2)                         [adaptive]
-  --iterations N        spatial filter iterations, 0…8          [default 4, classic 5]
+  --iterations N        spatial filter iterations, 0…8          [default 4+1, classic 5]
 
 Output
   --out DIR             folder for everything; made if missing

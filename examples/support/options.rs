@@ -52,7 +52,7 @@ Denoiser
                         (new samples against their history: no path is repeated),
                         blinn-phong (lights without shadows), off (the same as a
                         constant alpha)                                      [reshade]
-  --iterations N        spatial filter iterations, 0…8          [default 4, classic 5]
+  --iterations N        spatial filter iterations, 0…8          [default 4+1, classic 5]
 
 Output
   --out DIR             folder for everything; made if missing                   [out]

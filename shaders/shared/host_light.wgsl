@@ -48,56 +48,28 @@ fn clean(color: vec3<f32>) -> vec3<f32> {
     return sanitize(select(color, vec3(INFINITE), are_infinite(color)));
 }
 
-#ifdef MODULATED
-// What is not emitted. Where colour and emission disagree by a pixel, as at a light's edge, light must not become negative.
-fn reflected(pixel: vec2<i32>) -> vec3<f32> {
-    let r = clean(textureLoad(radiance, pixel, 0).xyz);
-#ifdef DIRECT_EMISSION
-    return max(r - clean(textureLoad(emission, pixel, 0).xyz), vec3(0.0));
-#else
-    return r;
-#endif
-}
-#endif
-
 #ifdef ALBEDO
 // An albedo that divides is kept between these. Failure: Cycles' albedo of a metal is that of what a single path saw in it, with zeros and
-// values above 10; radiance over that was a firefly of 1000 times the light, and an image of a room twice as bright. Reason: it is a
-// random number itself. Rule: no surface reflects more than it receives, and hardly one, soot aside, less than 2 %. What is darker is
-// filtered with its texture.
+// values above 10; radiance over that was a firefly of 1000 times the light, and an image of a room twice as bright. Reason: such an albedo
+// is a random number itself. Rule: no surface reflects more than it receives, and hardly one, soot aside, less than 2 %. The filter blurs
+// the texture of what is darker with its light.
 const LEAST_ALBEDO: f32 = 0.02;
 const MOST_ALBEDO: f32 = 1.0;
 
-fn divisor_of(albedo: vec3<f32>) -> vec3<f32> {
-    return clamp(albedo, vec3(LEAST_ALBEDO), vec3(MOST_ALBEDO));
-}
-
-// An albedo that is no number is unknown, and divides by nothing.
-fn known_albedo(pixel: vec2<i32>) -> vec3<f32> {
+// What the filtered radiance is multiplied with; `hit` where there is a surface. An albedo that is no number is unknown, and
+// divides by nothing.
+fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
     let given = textureLoad(albedo, pixel, 0).xyz;
     let finite = are_finite(given);
 #ifdef DIAGNOSTICS
     count(given, finite);
 #endif
     // Below the limit of f16.
-    return select(vec3(1.0), min(sanitize(given), vec3(65472.0)), finite);
-}
-
-// What the filtered radiance is multiplied with; `hit` where there is a surface. Where albedo and light are 0 the product is, too: ink, or
-// a lamp that reflects nothing, tells nothing of the light on it.
-fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
-    let a = known_albedo(pixel);
+    var a = select(vec3(1.0), min(sanitize(given), vec3(65472.0)), finite);
 #ifdef MODULATED
-    let black = hit && all(a <= vec3(0.0)) && all(reflected(pixel) <= vec3(0.0));
-    return round_to_f16(select(select(vec3(1.0), divisor_of(a), hit), vec3(0.0), black));
-#else
-    return round_to_f16(a);
+    a = select(vec3(1.0), clamp(a, vec3(LEAST_ALBEDO), vec3(MOST_ALBEDO)), hit);
 #endif
-}
-
-// What a pair is divided by.
-fn host_divisor(pixel: vec2<i32>) -> vec3<f32> {
-    return round_to_f16(divisor_of(known_albedo(pixel)));
+    return round_to_f16(a);
 }
 #endif
 
@@ -108,26 +80,25 @@ fn host_emission(pixel: vec2<i32>) -> vec2<u32> {
 #endif
 
 // The light alone, r = max(radiance − emission, 0) / divisor, the divisor being the albedo, if that is in it. What is no number
-// is no sample, nor is what reflects nothing (a divisor of 0). What is infinite, and not by emission, is marked: shown where there is
-// nothing else, it enters no average.
+// is no sample. What is infinite, and not by emission, is marked: shown where there is nothing else, it enters no average.
 fn host_radiance(pixel: vec2<i32>, divisor: vec3<f32>) -> vec2<u32> {
     let given = textureLoad(radiance, pixel, 0).xyz;
+    var r = clean(given);
     var infinite = are_infinite(given);
-    var missing = is_nan(given.x) | is_nan(given.y) | is_nan(given.z);
 #ifdef MODULATED
-    var r = reflected(pixel);
 #ifdef DIRECT_EMISSION
-    infinite &= !are_infinite(textureLoad(emission, pixel, 0).xyz);
+    // Where colour and emission disagree by a pixel, as at a light's edge, light must not become negative.
+    let emitted = textureLoad(emission, pixel, 0).xyz;
+    r = max(r - clean(emitted), vec3(0.0));
+    infinite &= !are_infinite(emitted);
 #endif
 #ifdef ALBEDO
-    missing |= all(divisor <= vec3(0.0));
-    r /= max(divisor, vec3(1e-37));
+    r /= divisor;
 #endif
-#else
-    let r = clean(given);
 #endif
     var packed = pack_rgb(min(r, vec3(BRIGHTEST)));
     packed.y |= select(0u, INFINITE_SAMPLE, any(infinite));
+    let missing = is_nan(given.x) | is_nan(given.y) | is_nan(given.z);
     return select(packed, NO_SAMPLE, missing);
 }
 

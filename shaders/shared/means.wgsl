@@ -36,7 +36,7 @@ fn unpack_means(now: vec4<u32>, before: vec4<u32>) -> Means {
     );
 }
 
-// The means that weighted sums are, with the inverse of the sum of weights.
+// Divides weighted sums by the sum of weights; `scale` is its inverse.
 fn scaled(sum: Means, scale: f32) -> Means {
     let square = scale * scale;
     return Means(

@@ -99,7 +99,7 @@ impl Denoiser {
         mut after: impl FnMut(Pass, &mut CommandEncoder),
     ) -> Result<Option<Reshade>, Error> {
         if self.settings.mode == Mode::Denoise && self.settings.filter.gradient == Gradient::BlinnPhong {
-            let reason = "needs a scene: choose Reshade, Pairs, Lambda or Off for your own renderer's frames";
+            let reason = "needs a scene: choose Automatic, Reshade, Statistics, Pairs, Lambda or Off for your own renderer's frames";
             return Err(Error::GradientSource { asked: Gradient::BlinnPhong, reason });
         }
         let camera = surfaces.camera.uniform(self.size)?;
@@ -135,9 +135,12 @@ impl Denoiser {
         let uniform = self.frame_uniform(device, &moment, &[]);
         let counts = self.counters.as_ref().map(|_| Counters::begin(device));
         let mut queries = self.timing.as_ref().map(|timing| {
-            // If the light comes in the target's texture, it is copied: no frame has more passes.
-            let copied = HostTraits { in_target: true, ..traits };
-            timing.begin(device, index, Plan::hosted(&copied, &self.settings, changes, most_bits).steps.len())
+            // If the light comes in the target's texture, it is copied; pairs may come or not: no frame has more passes.
+            let passes = [false, true].map(|pairs| {
+                let copied = HostTraits { in_target: true, pairs, ..traits };
+                Plan::hosted(&copied, &self.settings, changes, most_bits).steps.len()
+            });
+            timing.begin(device, index, passes[0].max(passes[1]))
         });
         let host = |name: &str| surfaces.resource(name);
         let resources = Resources { counts: counts.as_ref(), ..Resources::new(&host, &uniform) };

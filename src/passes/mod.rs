@@ -146,7 +146,7 @@ impl Pass {
 const GEOMETRY: &[Feature] =
     &[Feature::Instanced, Feature::Textures, Feature::ShadingNormals, Feature::AlphaMask, Feature::FewTriangles];
 
-/// What a host's radiance is freed of where it is read.
+/// What the shader takes out of a host's radiance as it reads it.
 const MODULATION: [Feature; 3] = [Feature::Modulated, Feature::Albedo, Feature::DirectEmission];
 
 /// The features of a pass that reads the motion and the light of `given`, with those that a host's own images need where they are read.

@@ -40,7 +40,7 @@ pub enum Image {
     PairsNow(u8),
     /// Radiances before.
     PairsBefore(u8),
-    /// Means of new samples and the variance of what they differ by from their histories, as bits of f32, of each level of the pyramid.
+    /// Means of new samples and the variance of their difference from the histories, of each level of the pyramid.
     MeansNow(u8),
     /// Means of these histories.
     MeansBefore(u8),

@@ -213,7 +213,7 @@ fn change(levels: &[Means; 3], with_ratio: bool) -> (f64, [f64; 4]) {
         let [known, now, product, before] = means.squares;
         let r = ratio[3];
         let larger = s.max(r * m);
-        if larger <= 7.9e-31 {
+        if larger <= 1e-17 {
             continue;
         }
         let d = s - r * m;
