@@ -13,31 +13,17 @@
 
 #import asvgf::frame::{frame, inside, sample_point, world_position}
 #import asvgf::color::luminance
-#import asvgf::history_taps::{History, bilinear_taps, mean_of}
+#import asvgf::history_taps::{History, bilinear_taps, mean_of, motion_of, origin_at}
 #import asvgf::means::{Means, pack_before, pack_now, scaled}
-#import asvgf::packing::{unpack_motion, unpack_normal, unpack_rgb}
-#import asvgf::reproject::origin_of
+#import asvgf::packing::{unpack_normal, unpack_rgb}
+#import asvgf::reproject::SAME_NORMAL
+#import asvgf::sample::sample_at
 #import asvgf::strata_filter::PLANE
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::is_sample
 #endif
-#ifdef HOST_LIGHT
-#import asvgf::host_light::host_sample
-#endif
-#ifdef HOST_MOTION
-#import asvgf::host_motion::host_motion
-#endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
-#ifndef HOST_MOTION
-@group(0) @binding(3) var motion: texture_2d<u32>;
-#endif
-#ifdef OBJECTS
-@group(0) @binding(4) var object: texture_2d<u32>;
-#endif
-#ifndef HOST_LIGHT
-@group(0) @binding(6) var radiance: texture_2d<u32>;
-#endif
 @group(0) @binding(9) var samples_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(10) var now_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(11) var before_out: texture_storage_2d<rgba32uint, write>;
@@ -47,33 +33,6 @@ const PRIOR_DEVIATION: f32 = 2.0;
 
 // Samples after which the history's own variance is believed.
 const KNOWN: f32 = 5.0;
-
-// Cosine from which on two normals are those of one surface.
-const SAME_NORMAL: f32 = 0.9;
-
-fn history_of(pixel: vec2<i32>, g: vec2<u32>) -> History {
-    let depth = bitcast<f32>(g.y);
-#ifdef HOST_MOTION
-    let m = unpack_motion(host_motion(pixel, depth).packed);
-#else
-    let m = unpack_motion(textureLoad(motion, pixel, 0).xy);
-#endif
-#ifdef OBJECTS
-    let here = textureLoad(object, pixel, 0).x;
-#else
-    let here = 0u;
-#endif
-    let point = vec2<f32>(pixel) + m.xy;
-    return mean_of(bilinear_taps(origin_of(vec2<f32>(pixel), m, unpack_normal(g.x), here), point));
-}
-
-fn sample_of(pixel: vec2<i32>) -> vec2<u32> {
-#ifdef HOST_LIGHT
-    return host_sample(pixel, true);
-#else
-    return textureLoad(radiance, pixel, 0).xy;
-#endif
-}
 
 // The variance of one sample's luminance: unbiased, and not below what a short history can know.
 fn sample_variance(history: History, n: f32) -> f32 {
@@ -89,7 +48,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var place = vec3(0.0);
     var normal = vec3(0.0);
     var reach = 0.0;
-    var sum = Means(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    var sum = Means();
     var count = 0.0;
     let first = select(0u, 9u, frame.continued == 0u);
     for (var k = first; k < 9u; k++) {
@@ -109,13 +68,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if record.x != 0u && (abs(dot(normal, point - place)) > reach || dot(normal, n) < SAME_NORMAL) {
             continue;
         }
-        let arrived = sample_of(pixel);
+        let arrived = sample_at(pixel, true);
 #ifdef MISSING_SAMPLES
         if !is_sample(arrived) {
             continue;
         }
 #endif
-        let history = history_of(pixel, g);
+        let moved = motion_of(pixel, depth);
+        let history = mean_of(bilinear_taps(origin_at(pixel, moved, n), vec2<f32>(pixel) + moved.xy));
         if history.weight <= 0.0 {
             continue;
         }

@@ -1,34 +1,23 @@
 // One à-trous iteration over the strata grid, on both means with the same weights; variances and squares go with the squares of the
 // weights.
 
-#import asvgf::frame::frame
 #import asvgf::means::{Means, pack_before, pack_now, scaled, unpack_means}
-#import asvgf::strata_filter::{site, tap_weight, in_grid}
+#import asvgf::strata_filter::site
+#import asvgf::strata_taps::{record_of, tap_at}
 
-@group(0) @binding(1) var<uniform> stride: i32;
 @group(0) @binding(4) var before: texture_2d<u32>;
 @group(0) @binding(5) var now_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(6) var before_out: texture_storage_2d<rgba32uint, write>;
 
 // Four storage textures are all that is sure to be had, see `Feature::StorageReads`.
 #ifdef STORAGE_READS
-@group(0) @binding(2) var samples: texture_storage_2d<rgba32uint, read>;
 @group(0) @binding(3) var now: texture_storage_2d<rgba32uint, read>;
-
-fn record_of(stratum: vec2<i32>) -> vec4<u32> {
-    return textureLoad(samples, stratum);
-}
 
 fn means_of(stratum: vec2<i32>) -> Means {
     return unpack_means(textureLoad(now, stratum), textureLoad(before, stratum, 0));
 }
 #else
-@group(0) @binding(2) var samples: texture_2d<u32>;
 @group(0) @binding(3) var now: texture_2d<u32>;
-
-fn record_of(stratum: vec2<i32>) -> vec4<u32> {
-    return textureLoad(samples, stratum, 0);
-}
 
 fn means_of(stratum: vec2<i32>) -> Means {
     return unpack_means(textureLoad(now, stratum, 0), textureLoad(before, stratum, 0));
@@ -39,19 +28,16 @@ fn means_of(stratum: vec2<i32>) -> Means {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let stratum = vec2<i32>(id.xy);
     let record = record_of(stratum);
-    var sum = Means(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+    var sum = Means();
     var weights = 0.0;
     if record.x != 0u {
         let center = site(record, stratum);
         for (var y = -1; y <= 1; y++) {
             for (var x = -1; x <= 1; x++) {
                 let offset = vec2(x, y);
-                let tap = stratum + offset * stride;
-                let clamped = clamp(tap, vec2(0), vec2<i32>(frame.strata) - 1);
-                let other = record_of(clamped);
-                let there = tap_weight(center, site(other, clamped), offset, stride);
-                let w = select(0.0, there, in_grid(tap) && other.x != 0u);
-                let means = means_of(clamped);
+                let tap = tap_at(center, stratum, offset);
+                let w = tap.weight;
+                let means = means_of(tap.stratum);
                 sum.now += w * means.now;
                 sum.before += w * means.before;
                 sum.variance += w * w * means.variance;

@@ -29,9 +29,8 @@
 // Luminances below which there is nothing to compare: their squares, of which the noise is made, are still normal numbers.
 const DARK: f32 = 1e-17;
 
-// Times the variance that is taken for noise: for λ, and for ρ.
-const LAMBDA_NOISE: f32 = 6.0;
-const RATIO_NOISE: f32 = 6.0;
+// Times the variance that is taken for noise.
+const NOISE: f32 = 6.0;
 
 struct Found {
     // For r, g, b and luminance.
@@ -53,7 +52,7 @@ fn refine(found: Found, means: Means) -> Found {
     let scale = ratio.w / larger;
     let seen = (means.now_square / larger - 2.0 * scale * means.product) / larger + scale * (scale * means.before_square);
     let noise = max(scale * (scale * means.variance), seen);
-    let lambda = max(found.lambda, sqrt(max(square - LAMBDA_NOISE * noise, 0.0)));
+    let lambda = max(found.lambda, sqrt(max(square - NOISE * noise, 0.0)));
 #ifdef HISTORY_RATIO
     // What comes out of the dark has no ratio, as its quotient may be infinite.
     if m <= 1e-6 * s {
@@ -63,7 +62,7 @@ fn refine(found: Found, means: Means) -> Found {
     let level = (s + e * ratio.w) / max(m + e, DARK);
     let limit = frame.ratio_chroma_limit;
     let color = clamp((means.now + e * ratio.xyz) / max(means.before + e, vec3(DARK)), vec3(level / limit), vec3(level * limit));
-    let believed = max(0.0, 1.0 - RATIO_NOISE * noise / max(square, 1e-12));
+    let believed = max(0.0, 1.0 - NOISE * noise / max(square, 1e-12));
     return Found(ratio + (vec4(color, level) - ratio) * believed, lambda);
 #else
     return Found(ratio, lambda);

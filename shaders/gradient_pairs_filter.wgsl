@@ -1,33 +1,22 @@
 // One à-trous iteration over the strata grid, on all channels of the pairs with the same weights.
 
-#import asvgf::frame::frame
 #import asvgf::pairs::{Pair, pack_now, pack_before, unpack_pair}
-#import asvgf::strata_filter::{site, tap_weight, in_grid}
+#import asvgf::strata_filter::site
+#import asvgf::strata_taps::{record_of, tap_at}
 
-@group(0) @binding(1) var<uniform> stride: i32;
 @group(0) @binding(4) var before: texture_2d<u32>;
 @group(0) @binding(5) var now_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(6) var before_out: texture_storage_2d<rgba32uint, write>;
 
 // Four storage textures are all that is sure to be had, see `Feature::StorageReads`.
 #ifdef STORAGE_READS
-@group(0) @binding(2) var samples: texture_storage_2d<rgba32uint, read>;
 @group(0) @binding(3) var now: texture_storage_2d<rgba32uint, read>;
-
-fn record_of(stratum: vec2<i32>) -> vec4<u32> {
-    return textureLoad(samples, stratum);
-}
 
 fn pair_of(stratum: vec2<i32>) -> Pair {
     return unpack_pair(textureLoad(now, stratum), textureLoad(before, stratum, 0));
 }
 #else
-@group(0) @binding(2) var samples: texture_2d<u32>;
 @group(0) @binding(3) var now: texture_2d<u32>;
-
-fn record_of(stratum: vec2<i32>) -> vec4<u32> {
-    return textureLoad(samples, stratum, 0);
-}
 
 fn pair_of(stratum: vec2<i32>) -> Pair {
     return unpack_pair(textureLoad(now, stratum, 0), textureLoad(before, stratum, 0));
@@ -45,12 +34,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         for (var y = -1; y <= 1; y++) {
             for (var x = -1; x <= 1; x++) {
                 let offset = vec2(x, y);
-                let tap = stratum + offset * stride;
-                let clamped = clamp(tap, vec2(0), vec2<i32>(frame.strata) - 1);
-                let other = record_of(clamped);
-                let there = tap_weight(center, site(other, clamped), offset, stride);
-                let w = select(0.0, there, in_grid(tap) && other.x != 0u);
-                let pair = pair_of(clamped);
+                let tap = tap_at(center, stratum, offset);
+                let w = tap.weight;
+                let pair = pair_of(tap.stratum);
                 sum.now += w * pair.now;
                 sum.before += w * pair.before;
                 sum.product += w * pair.product;

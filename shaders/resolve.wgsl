@@ -8,8 +8,8 @@
 #ifndef UNFILTERED
 #import asvgf::history::filtered_color
 #endif
+#import asvgf::sample::sample_at
 #ifdef HOST_LIGHT
-#import asvgf::host_light::host_sample
 #ifdef ALBEDO
 #import asvgf::host_light::host_albedo
 #endif
@@ -37,9 +37,6 @@ fn hit_at(pixel: vec2<i32>) -> bool {
 }
 
 #ifdef HOST_LIGHT
-fn sample_at(pixel: vec2<i32>, hit: bool) -> vec2<u32> {
-    return host_sample(pixel, hit);
-}
 #ifdef ALBEDO
 fn albedo_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
     return host_albedo(pixel, hit);
@@ -51,13 +48,8 @@ fn emission_at(pixel: vec2<i32>) -> vec3<f32> {
 }
 #endif
 #else
-@group(0) @binding(7) var radiance: texture_2d<u32>;
 @group(0) @binding(2) var albedo: texture_2d<f32>;
 @group(0) @binding(3) var emission: texture_2d<u32>;
-
-fn sample_at(pixel: vec2<i32>, hit: bool) -> vec2<u32> {
-    return textureLoad(radiance, pixel, 0).xy;
-}
 
 fn albedo_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
     return textureLoad(albedo, pixel, 0).xyz;

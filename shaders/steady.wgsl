@@ -13,6 +13,7 @@
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
+#import asvgf::reproject::SAME_NORMAL
 #import asvgf::packing::{pack_rgb, tap_color, unpack_normal, unpack_tap_deviation}
 
 #ifdef STORAGE_READS
@@ -50,9 +51,6 @@ const NOISE: f32 = 2.0;
 
 // Ratio of luminances up to which two pixels are taken for one neighbourhood.
 const ALIKE: f32 = 2.0;
-
-// Cosine from which on two normals are those of one surface.
-const SAME_NORMAL: f32 = 0.9;
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {

@@ -13,6 +13,7 @@
 #import asvgf::history::{pack_history, rounding}
 #import asvgf::history_taps::History
 #import asvgf::packing::{unpack_rgb, unpack_normal}
+#import asvgf::sample::sample_at
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::{is_missing, is_sample}
 #endif
@@ -22,18 +23,11 @@
 #ifdef STEADY
 #import asvgf::packing::pack_tap
 #endif
-#ifdef HOST_LIGHT
-#import asvgf::host_light::host_sample
-#endif
 #ifdef STILL
 #import asvgf::history_taps::own_history
 #else
-#import asvgf::history_taps::{Taps, add_tap, bilinear_taps, corner_of, mean_of}
-#import asvgf::packing::unpack_motion
-#ifdef HOST_MOTION
-#import asvgf::host_motion::host_motion
-#endif
-#import asvgf::reproject::{Origin, origin_of}
+#import asvgf::history_taps::{Taps, add_tap, bilinear_taps, corner_of, mean_of, motion_of, origin_at}
+#import asvgf::reproject::Origin
 #endif
 #ifdef EXTERNAL_LAMBDA
 #import asvgf::color::is_finite
@@ -44,17 +38,6 @@
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
-#ifndef STILL
-#ifndef HOST_MOTION
-@group(0) @binding(3) var motion: texture_2d<u32>;
-#endif
-#endif
-#ifdef OBJECTS
-@group(0) @binding(4) var object: texture_2d<u32>;
-#endif
-#ifndef HOST_LIGHT
-@group(0) @binding(6) var radiance: texture_2d<u32>;
-#endif
 #ifdef FEEDBACK
 @group(0) @binding(9) var feedback_out: texture_storage_2d<rg32uint, write>;
 #endif
@@ -136,11 +119,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // A miss is carried on like a surface, and what comes of it is not kept.
     let seen = depth > 0.0;
     let normal = unpack_normal(g.x);
-#ifdef HOST_LIGHT
-    let arrived = host_sample(pixel, seen);
-#else
-    let arrived = textureLoad(radiance, pixel, 0).xy;
-#endif
+    let arrived = sample_at(pixel, seen);
     let sample = unpack_rgb(arrived);
     let l = luminance(sample);
     var history = History();
@@ -153,17 +132,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef STILL
         history = own_history(pixel);
 #else
-#ifdef HOST_MOTION
-        let m = unpack_motion(host_motion(pixel, depth).packed);
-#else
-        let m = unpack_motion(textureLoad(motion, pixel, 0).xy);
-#endif
-#ifdef OBJECTS
-        let here = textureLoad(object, pixel, 0).x;
-#else
-        let here = 0u;
-#endif
-        history = reproject(pixel, m, origin_of(vec2<f32>(pixel), m, normal, here), seen);
+        let m = motion_of(pixel, depth);
+        history = reproject(pixel, m, origin_at(pixel, m, normal), seen);
 #ifdef STEADY
         moved = m.xy;
 #endif
@@ -183,15 +153,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var before = history.color;
         var mean_before = history.mean;
         var variance_before = history.variance;
+        var ratio = vec4(1.0);
         // A still image's history may be longer than the settings allow in one that moves.
         var kept = min(history.length, frame.max_history);
 #ifdef GRADIENT
         let change = change_at(pixel, normal, depth, seen);
         lambda = change.lambda;
 #ifdef HISTORY_RATIO
-        before *= change.ratio.xyz;
-        mean_before *= change.ratio.w;
-        variance_before *= change.ratio.w * change.ratio.w;
+        ratio = change.ratio;
+        before *= ratio.xyz;
+        mean_before *= ratio.w;
+        variance_before *= ratio.w * ratio.w;
 #endif
         kept *= kept_part(lambda);
 #endif
@@ -231,13 +203,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         mean = mean_before + alpha * deviation;
         variance = (1.0 - alpha) * (variance_before + alpha * deviation * deviation);
 #ifdef STEADY
-        last_output = history.output;
-#ifdef HISTORY_RATIO
-        last_output *= change.ratio.xyz;
-        steady = steadiness(lambda, change.ratio.w, length, moved);
-#else
-        steady = steadiness(lambda, 1.0, length, moved);
-#endif
+        last_output = history.output * ratio.xyz;
+        steady = steadiness(lambda, ratio.w, length, moved);
 #endif
     }
 #ifdef MISSING_SAMPLES

@@ -275,6 +275,24 @@ pub enum Gradient {
     Off,
 }
 
+impl Gradient {
+    /// What it is where the denoiser traces the paths.
+    #[cfg(feature = "path-tracer")]
+    pub(crate) fn traced(self) -> Self {
+        if self == Self::Automatic { Self::Reshade } else { self }
+    }
+
+    /// What it is in a host's frame with or without λ and pairs.
+    pub(crate) fn hosted(self, lambda: bool, pairs: bool) -> Self {
+        match self {
+            Self::Automatic if lambda => Self::Lambda,
+            Self::Automatic if pairs => Self::Pairs,
+            Self::Automatic => Self::Statistics,
+            asked => asked,
+        }
+    }
+}
+
 /// How λ enters the weight α' of the new frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Blend {

@@ -7,10 +7,17 @@
 #import asvgf::history::{history_color, history_variance, history_length}
 #import asvgf::packing::unpack_rgb
 #ifndef STILL
-#import asvgf::reproject::{Origin, same_surface}
+#import asvgf::reproject::{Origin, origin_of, same_surface}
+#import asvgf::packing::unpack_motion
+#ifdef HOST_MOTION
+#import asvgf::host_motion::host_motion
+#else
+@group(0) @binding(3) var motion: texture_2d<u32>;
+#endif
 #endif
 
 #ifdef OBJECTS
+@group(0) @binding(4) var object: texture_2d<u32>;
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
 #endif
 #ifdef FEEDBACK
@@ -87,6 +94,25 @@ fn own_history(pixel: vec2<i32>) -> History {
     return history;
 }
 #else
+// Where the surface was, less where it is, and the depth that it had.
+fn motion_of(pixel: vec2<i32>, depth: f32) -> vec3<f32> {
+#ifdef HOST_MOTION
+    return unpack_motion(host_motion(pixel, depth).packed);
+#else
+    return unpack_motion(textureLoad(motion, pixel, 0).xy);
+#endif
+}
+
+// The surface as it was.
+fn origin_at(pixel: vec2<i32>, moved: vec3<f32>, normal: vec3<f32>) -> Origin {
+#ifdef OBJECTS
+    let here = textureLoad(object, pixel, 0).x;
+#else
+    let here = 0u;
+#endif
+    return origin_of(vec2<f32>(pixel), moved, normal, here);
+}
+
 struct Taps {
     color: vec3<f32>,
     mean: f32,

@@ -11,9 +11,12 @@ struct Origin {
     object: u32,
 }
 
+// Cosine from which on two normals are those of one surface: 26°.
+const SAME_NORMAL: f32 = 0.9;
+
 // The same surface point, or a near neighbour of it on the same surface? The instance alone would accept a surface that
 // reappears from behind itself; the plane distance works at grazing angles, where a difference of depths does not.
-// Thresholds: 1 % of the depth off the plane, 5 % of it away (beyond, taps of one pixel cannot be meant), 26° (0.9).
+// Thresholds: 1 % of the depth off the plane, 5 % of it away (beyond, taps of one pixel cannot be meant), 26°.
 fn same_surface(origin: Origin, tap: vec2<i32>, guide: vec2<u32>, object: u32) -> bool {
     let depth = bitcast<f32>(guide.y);
     if depth <= 0.0 || object != origin.object {
@@ -24,7 +27,7 @@ fn same_surface(origin: Origin, tap: vec2<i32>, guide: vec2<u32>, object: u32) -
         - world_position(frame.previous, sample_point(frame.previous, vec2<f32>(tap)), depth);
     return abs(dot(normal, offset)) <= 0.01 * depth
         && dot(offset, offset) <= 0.0025 * depth * depth
-        && dot(normal, origin.normal) >= 0.9;
+        && dot(normal, origin.normal) >= SAME_NORMAL;
 }
 
 fn origin_of(pixel: vec2<f32>, motion: vec3<f32>, normal: vec3<f32>, object: u32) -> Origin {

@@ -19,11 +19,13 @@ const SHARED: &[(&str, &str)] = &[
     ("edge_stop", include_str!("../../shaders/shared/edge_stop.wgsl")),
     ("host_motion", include_str!("../../shaders/shared/host_motion.wgsl")),
     ("host_light", include_str!("../../shaders/shared/host_light.wgsl")),
+    ("sample", include_str!("../../shaders/shared/sample.wgsl")),
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
     ("history_taps", include_str!("../../shaders/shared/history_taps.wgsl")),
     ("means", include_str!("../../shaders/shared/means.wgsl")),
     ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
+    ("strata_taps", include_str!("../../shaders/shared/strata_taps.wgsl")),
     ("change", include_str!("../../shaders/shared/change.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("scene", include_str!("../../shaders/shared/scene.wgsl")),

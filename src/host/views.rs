@@ -135,16 +135,7 @@ pub(super) fn shading(
     traits.pairs = given.pairs.is_some();
     traits.lambda = given.lambda.is_some();
     let missing = |view, setting, remedy| Error::ViewMissing { view, setting, remedy };
-    match settings.filter.gradient {
-        Gradient::Automatic => {
-            if let Some(given) = &given.lambda {
-                return lambda(traits, given, size);
-            }
-            match &given.pairs {
-                Some(given) if changes.scene => pairs(traits, given, size),
-                _ => Ok(()),
-            }
-        }
+    match settings.filter.gradient.hosted(traits.lambda, traits.pairs) {
         // Nothing is made of them.
         Gradient::Pairs if !changes.scene => Ok(()),
         Gradient::Pairs => {
@@ -155,7 +146,7 @@ pub(super) fn shading(
             let none = missing("lambda", "Gradient::Lambda", "fill `Shading::lambda`, or choose Gradient::Automatic");
             lambda(traits, given.lambda.as_ref().ok_or(none)?, size)
         }
-        Gradient::Reshade | Gradient::Statistics | Gradient::BlinnPhong | Gradient::Off => Ok(()),
+        _ => Ok(()),
     }
 }
 

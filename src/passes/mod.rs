@@ -26,7 +26,7 @@ pub(crate) mod view;
 #[cfg(feature = "path-tracer")]
 pub(crate) mod visibility;
 
-use crate::plan::{Feature, Features};
+use crate::plan::{Feature, Features, Image, Slot};
 
 /// A compute shader of the pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -160,11 +160,42 @@ fn modulation(given: Features, mut features: Features) -> Features {
     features
 }
 
+/// What finds a pixel's sample, its surface in the last frame, and the history there.
+fn reprojection(features: Features) -> Vec<(&'static str, Slot)> {
+    // A host's own image, or its copy.
+    let source = |direct, image| if features.has(direct) { Slot::Host } else { Slot::Now(image) };
+    let mut found = bindings(
+        features,
+        [
+            ("guide", Slot::Now(Image::Guide), &[]),
+            ("radiance", source(Feature::HostLight, Image::Radiance), &[]),
+            ("albedo", Slot::Host, &[Feature::Albedo]),
+            ("emission", Slot::Host, &[Feature::DirectEmission]),
+            ("history_previous", Slot::Before(Image::History), &[]),
+            ("feedback_previous", Slot::Before(Image::Feedback), &[Feature::Feedback]),
+            ("output_previous", Slot::Before(Image::Output), &[Feature::Steady]),
+        ],
+    );
+    if !features.has(Feature::Still) {
+        found.extend(bindings(
+            features,
+            [
+                ("guide_previous", Slot::Before(Image::Guide), &[]),
+                ("motion", source(Feature::HostMotion, Image::Motion), &[]),
+                ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
+                ("object", Slot::Now(Image::Object), &[Feature::Objects]),
+                ("object_previous", Slot::Before(Image::Object), &[Feature::Objects]),
+            ],
+        ));
+    }
+    found
+}
+
 /// The bindings of a list whose features are all present.
 fn bindings<const N: usize>(
     features: Features,
-    all: [(&'static str, crate::plan::Slot, &[Feature]); N],
-) -> Vec<(&'static str, crate::plan::Slot)> {
+    all: [(&'static str, Slot, &[Feature]); N],
+) -> Vec<(&'static str, Slot)> {
     all.into_iter()
         .filter(|(_, _, needed)| needed.iter().all(|&f| features.has(f)))
         .map(|(name, slot, _)| (name, slot))

@@ -47,22 +47,13 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
         (Unfiltered, settings.mode != Mode::Denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    let source = match settings.filter.gradient {
-        settings::Gradient::Automatic => settings::Gradient::Reshade,
-        asked => asked,
-    };
-    with_filter(&rows, source, [false, traits.views], settings, changes)
+    with_filter(&rows, settings.filter.gradient.traced(), [false, traits.views], settings, changes)
 }
 
 /// Of a frame of the host's renderer.
 pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes) -> Vec<Decision> {
     let denoise = settings.mode == Mode::Denoise;
-    let source = match settings.filter.gradient {
-        settings::Gradient::Automatic if traits.lambda => settings::Gradient::Lambda,
-        settings::Gradient::Automatic if traits.pairs => settings::Gradient::Pairs,
-        settings::Gradient::Automatic => settings::Gradient::Statistics,
-        asked => asked,
-    };
+    let source = settings.filter.gradient.hosted(traits.lambda, traits.pairs);
     let pairs = denoise && source == settings::Gradient::Pairs;
     let lambda = denoise && source == settings::Gradient::Lambda;
     let modulated = !traits.demodulated && (traits.albedo || traits.emission);

@@ -2,9 +2,9 @@
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, float, luminance, pack_rgb, unpack_normal, unpack_rgb, word};
+use super::last_frame::Given;
 use super::plane::{V, dot, sub};
 use super::random::Random;
-use super::temporal::Given;
 use crate::passes::{gradient_means, gradient_means_filter, gradient_of_means};
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings};

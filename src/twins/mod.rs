@@ -29,6 +29,7 @@ mod history;
 mod ingest_pairs;
 mod ingest_radiance;
 mod ingest_surface;
+mod last_frame;
 mod packing;
 mod properties;
 mod reshade;

@@ -3,8 +3,8 @@
 use super::atrous;
 use super::bench::{Bench, Texel};
 use super::codec::{Kept, luminance, pack_normal, pack_rgb, pack_tap, unpack_rgb, unpack_tap, word};
+use super::last_frame::Given;
 use super::plane::{V, unit};
-use super::temporal::Given;
 use crate::plan::Feature::{self, FullKernel, LocalLinearFit};
 use crate::plan::Features;
 use crate::{Camera, FilterSettings, Settings};
