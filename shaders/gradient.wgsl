@@ -7,21 +7,19 @@
 
 #import asvgf::frame::frame
 #import asvgf::color::luminance
-#import asvgf::packing::{is_sample, unpack_rgb}
-#import asvgf::strata::{place_now, place_before, previous_pixel}
 #ifdef HISTORY_RATIO
 #import asvgf::pairs::unpack_pair
 #endif
 #ifdef BLINN_PHONG
 #import asvgf::blinn_phong::shade_pair
+#import asvgf::strata::previous_pixel
+#else
+#import asvgf::pair_taps::radiances_of
 #endif
 
 @group(0) @binding(1) var samples: texture_2d<u32>;
 #ifdef BLINN_PHONG
 @group(0) @binding(2) var visibility_previous: texture_2d<u32>;
-#else
-@group(0) @binding(2) var radiance: texture_2d<u32>;
-@group(0) @binding(3) var radiance_previous: texture_2d<u32>;
 #endif
 #ifdef HISTORY_RATIO
 @group(0) @binding(4) var now_filtered: texture_2d<u32>;
@@ -98,12 +96,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let now = pair.x;
         var before = pair.y;
 #else
-        let path_now = textureLoad(radiance, place_now(record, stratum), 0).xy;
-        let path_before = textureLoad(radiance_previous, place_before(record, stratum), 0).xy;
-        // As in gradient_pairs.wgsl.
-        let comparable = is_sample(path_now) & is_sample(path_before);
-        let now = select(0.0, luminance(unpack_rgb(path_now)), comparable);
-        var before = select(0.0, luminance(unpack_rgb(path_before)), comparable);
+        let radiances = radiances_of(record, stratum);
+        let now = luminance(radiances.now);
+        var before = luminance(radiances.before);
 #endif
 #ifdef HISTORY_RATIO
         let rescaled = history_ratio(stratum);

@@ -22,8 +22,14 @@
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::is_sample
 #endif
+#ifdef OUTLIERS
+#import asvgf::outliers::{bound, ratio_to, unpack_limit}
+#endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
+#ifdef OUTLIERS
+@group(0) @binding(6) var limit: texture_2d<u32>;
+#endif
 @group(0) @binding(9) var samples_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(10) var now_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(11) var before_out: texture_storage_2d<rgba32uint, write>;
@@ -50,6 +56,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var reach = 0.0;
     var sum = Means();
     var count = 0.0;
+#ifdef OUTLIERS
+    let believed = unpack_limit(textureLoad(limit, stratum, 0));
+#endif
     let first = select(0u, 9u, frame.continued == 0u);
     for (var k = first; k < 9u; k++) {
         let at = select(k + 4u, k - 5u, k > 4u);
@@ -79,6 +88,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if history.weight <= 0.0 {
             continue;
         }
+        let sample = unpack_rgb(arrived);
+        let l = luminance(sample);
+        let l_before = luminance(history.color);
+#ifdef OUTLIERS
+        // What temporal.wgsl does not believe is no change either.
+        if ratio_to(bound(max(l_before, max(believed.expected, believed.level)), history.length), l) > believed.ratio {
+            continue;
+        }
+#endif
         if record.x == 0u {
             record = vec4(at + 1u, 0u, g);
             place = point;
@@ -87,9 +105,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
         let length = clamp(history.length, 1.0, frame.max_history);
         let v = sample_variance(history, length);
-        let sample = unpack_rgb(arrived);
-        let l = luminance(sample);
-        let l_before = luminance(history.color);
         sum.now += sample;
         sum.before += history.color;
         sum.variance += v + v / length;

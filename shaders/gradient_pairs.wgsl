@@ -3,13 +3,10 @@
 
 #import asvgf::frame::frame
 #import asvgf::color::luminance
-#import asvgf::packing::{is_sample, unpack_rgb}
+#import asvgf::pair_taps::radiances_of
 #import asvgf::pairs::{Pair, pack_now, pack_before}
-#import asvgf::strata::{place_now, place_before}
 
 @group(0) @binding(1) var samples: texture_2d<u32>;
-@group(0) @binding(2) var radiance: texture_2d<u32>;
-@group(0) @binding(3) var radiance_previous: texture_2d<u32>;
 @group(0) @binding(4) var now_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(5) var before_out: texture_storage_2d<rgba32uint, write>;
 
@@ -20,12 +17,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var now = vec3(0.0);
     var before = vec3(0.0);
     if record.x != 0u {
-        let path_now = textureLoad(radiance, place_now(record, stratum), 0).xy;
-        let path_before = textureLoad(radiance_previous, place_before(record, stratum), 0).xy;
-        // What is missing on one side tells nothing: two zeros weigh on neither sum.
-        let comparable = is_sample(path_now) & is_sample(path_before);
-        now = select(vec3(0.0), unpack_rgb(path_now), comparable);
-        before = select(vec3(0.0), unpack_rgb(path_before), comparable);
+        let radiances = radiances_of(record, stratum);
+        now = radiances.now;
+        before = radiances.before;
     }
     let l = luminance(now);
     let l_before = luminance(before);

@@ -9,6 +9,11 @@
 #import asvgf::host_light::host_radiance
 #ifdef ALBEDO
 #import asvgf::host_light::{LEAST_ALBEDO, host_albedo}
+#ifdef MODULATED
+#ifdef MISSING_SAMPLES
+#import asvgf::host_light::shown_albedo
+#endif
+#endif
 #endif
 #ifdef DIRECT_EMISSION
 #import asvgf::host_light::host_emission
@@ -65,12 +70,23 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     let a = host_albedo(pixel, true);
 #endif
-    textureStore(albedo_out, pixel, vec4(a, 0.0));
 #endif
 #ifdef DIRECT_EMISSION
     textureStore(emission_out, pixel, vec4(host_emission(pixel), 0u, 0u));
 #endif
     let light = host_radiance(pixel, divisor);
+#ifdef ALBEDO
+#ifdef MODULATED
+#ifdef MISSING_SAMPLES
+    let shown = shown_albedo(pixel, textureLoad(guide, pixel, 0).y != 0u, light);
+#else
+    let shown = a;
+#endif
+#else
+    let shown = a;
+#endif
+    textureStore(albedo_out, pixel, vec4(shown, 0.0));
+#endif
 #ifdef RESHADE
     textureStore(radiance_out, pixel, vec4(select(NO_SAMPLE, light, comparable), 0u, 0u));
 #else

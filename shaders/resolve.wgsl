@@ -12,6 +12,11 @@
 #ifdef HOST_LIGHT
 #ifdef ALBEDO
 #import asvgf::host_light::host_albedo
+#ifdef MODULATED
+#ifdef MISSING_SAMPLES
+#import asvgf::host_light::shown_albedo
+#endif
+#endif
 #endif
 #ifdef DIRECT_EMISSION
 #import asvgf::host_light::host_emission
@@ -39,7 +44,15 @@ fn hit_at(pixel: vec2<i32>) -> bool {
 #ifdef HOST_LIGHT
 #ifdef ALBEDO
 fn albedo_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+#ifdef MODULATED
+#ifdef MISSING_SAMPLES
+    return shown_albedo(pixel, hit, sample_at(pixel, hit));
+#else
     return host_albedo(pixel, hit);
+#endif
+#else
+    return host_albedo(pixel, hit);
+#endif
 }
 #endif
 #ifdef DIRECT_EMISSION

@@ -23,6 +23,12 @@
 #ifdef STEADY
 #import asvgf::packing::pack_tap
 #endif
+#ifdef OUTLIERS
+#import asvgf::outliers::{LEAST_LEVEL, bound, ratio_to, unpack_candidate, unpack_limit}
+#ifdef DIAGNOSTICS
+#import asvgf::counts::counts
+#endif
+#endif
 #ifdef STILL
 #import asvgf::history_taps::own_history
 #else
@@ -33,8 +39,18 @@
 #import asvgf::color::is_finite
 #endif
 #ifdef GRADIENT
-#import asvgf::change::{change_at, samples}
-#import asvgf::strata::{is_sample_pixel, stratum_of}
+#import asvgf::change::change_at
+#endif
+#ifdef IN_PLACE
+#import asvgf::change::samples
+#import asvgf::strata::is_sample_pixel
+#endif
+#ifdef OUTLIERS
+#import asvgf::strata::stratum_of
+#else
+#ifdef IN_PLACE
+#import asvgf::strata::stratum_of
+#endif
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
@@ -48,6 +64,10 @@
 #ifdef STEADY
 // The last output where the surface was, rescaled as the history is, and its weight in this one, see steady.wgsl.
 @group(0) @binding(16) var reprojected_out: texture_storage_2d<rg32uint, write>;
+#endif
+#ifdef OUTLIERS
+@group(0) @binding(17) var candidates: texture_2d<u32>;
+@group(0) @binding(18) var limit: texture_2d<u32>;
 #endif
 #ifdef KEEP_WEIGHTS
 // α and λ, for views.
@@ -98,6 +118,36 @@ fn kept_part(lambda: f32) -> f32 {
     return pow(max(1.0 - lambda, 1e-9), frame.history_power);
 }
 
+#ifdef OUTLIERS
+// How far a sample is believed.
+struct Belief {
+    // Weight of the sample, 0…1: (R·B/l)² above its bound R·B. Brought down to that alone, outliers would still brighten a surface; with
+    // a weight of its own too, one far above does nothing, and one just above is light.
+    weight: f32,
+    // What brings its luminance down to the bound.
+    scale: f32,
+    // Seen so often running that the history must be wrong.
+    confirmed: bool,
+    // Mean luminance around.
+    around: f32,
+}
+
+fn belief_in(pixel: vec2<u32>, l: f32, level: f32, length: f32, lambda: f32) -> Belief {
+    let stratum = stratum_of(pixel);
+    let believed = unpack_limit(textureLoad(limit, stratum, 0));
+    let candidate = unpack_candidate(textureLoad(candidates, stratum, 0));
+    let within = pixel - 3u * stratum;
+    let known = max(level, max(LEAST_LEVEL * believed.expected, lambda * believed.level));
+    let base = select(known, believed.level, length <= 0.0);
+    let ratio = ratio_to(bound(base, length), l);
+    let over = ratio > believed.ratio;
+    let enough = candidate.sightings == believed.sightings || over && candidate.sightings > believed.sightings;
+    let confirmed = enough && candidate.place == within.y * 3u + within.x + 1u;
+    let scale = select(1.0, believed.ratio / max(ratio, 1e-9), over && !confirmed);
+    return Belief(scale * scale, scale, confirmed, believed.level);
+}
+#endif
+
 #ifdef EXTERNAL_LAMBDA
 // λ as the host knows it. What is not a number tells nothing.
 fn lambda_at(pixel: vec2<u32>) -> f32 {
@@ -120,8 +170,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let seen = depth > 0.0;
     let normal = unpack_normal(g.x);
     let arrived = sample_at(pixel, seen);
+#ifdef OUTLIERS
+    var sample = unpack_rgb(arrived);
+    var l = luminance(sample);
+#else
     let sample = unpack_rgb(arrived);
     let l = luminance(sample);
+#endif
     var history = History();
 #ifdef STEADY
     var last_output = vec3(0.0);
@@ -139,12 +194,33 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #endif
     }
-    var color = sample;
-    var mean = l;
     var variance = 0.0;
     var length = 1.0;
     var alpha = 1.0;
     var lambda = 0.0;
+#ifdef GRADIENT
+    let change = change_at(pixel, normal, depth, seen);
+    lambda = select(0.0, change.lambda, history.weight > 0.0);
+#endif
+#ifdef EXTERNAL_LAMBDA
+    lambda = select(0.0, lambda_at(id.xy), history.weight > 0.0);
+#endif
+#ifdef OUTLIERS
+    var level = luminance(history.color);
+#ifdef STEADY
+    level = max(level, luminance(history.output));
+#endif
+    let belief = belief_in(id.xy, l, level, history.length, lambda);
+    // Without a history, what is not believed is as bright as what is around.
+    let first = mix(min(belief.around / max(l, 1e-37), 1.0), belief.scale, belief.weight);
+    var color = sample * first;
+    var mean = l * first;
+    sample *= belief.scale;
+    l *= belief.scale;
+#else
+    var color = sample;
+    var mean = l;
+#endif
 #ifdef MISSING_SAMPLES
     let sampled = is_sample(arrived);
     length = select(0.0, 1.0, sampled);
@@ -156,19 +232,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var ratio = vec4(1.0);
         // A still image's history may be longer than the settings allow in one that moves.
         var kept = min(history.length, frame.max_history);
-#ifdef GRADIENT
-        let change = change_at(pixel, normal, depth, seen);
-        lambda = change.lambda;
 #ifdef HISTORY_RATIO
         ratio = change.ratio;
         before *= ratio.xyz;
         mean_before *= ratio.w;
         variance_before *= ratio.w * ratio.w;
 #endif
+#ifdef GRADIENT
         kept *= kept_part(lambda);
 #endif
 #ifdef EXTERNAL_LAMBDA
-        lambda = lambda_at(id.xy);
         kept *= kept_part(lambda);
 #endif
         length = min(kept + 1.0, frame.max_history);
@@ -181,12 +254,19 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
         let older = (1.0 - alpha) * (1.0 - alpha) / max(kept, 1e-9);
         length = select(length, min(1.0 / (older + alpha * alpha), frame.max_history), alpha * length > 1.0);
+#ifdef OUTLIERS
+        alpha = select(alpha * belief.weight, 1.0, belief.confirmed);
+        length = select(mix(kept, length, belief.weight), 1.0, belief.confirmed);
+#endif
 #ifdef IN_PLACE
         // The gradient's sample is not new: averaged in, it would count twice (noise ×1.11). Only where it replaces what λ
         // drops does it count.
         if is_sample_pixel(textureLoad(samples, stratum_of(id.xy), 0), id.xy) {
             alpha = lambda;
             length = max(kept, 1.0);
+#ifdef OUTLIERS
+            alpha *= belief.weight;
+#endif
         }
 #endif
 #ifdef MISSING_SAMPLES
@@ -210,8 +290,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef MISSING_SAMPLES
     // An infinite sample without a history is kept as a colour of length 0, to be shown.
     let shown = length <= 0.0 && !is_missing(arrived);
-    color = select(color, sample, shown);
-    mean = select(mean, l, shown);
+    color = select(color, unpack_rgb(arrived), shown);
+    mean = select(mean, luminance(unpack_rgb(arrived)), shown);
     variance = select(variance, 0.0, shown);
 #endif
     color = max(color, vec3(0.0));
@@ -229,7 +309,24 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef STEADY
     textureStore(reprojected_out, pixel, vec4(select(vec2(0u), pack_tap(last_output, steady), seen), 0u, 0u));
 #endif
+#ifdef OUTLIERS
+#ifdef MISSING_SAMPLES
+    let outlier = seen && sampled && belief.weight < 1.0;
+#else
+    let outlier = seen && belief.weight < 1.0;
+#endif
+#ifdef DIAGNOSTICS
+    if outlier {
+        atomicAdd(&counts.outliers, 1u);
+    }
+#endif
+#endif
 #ifdef KEEP_WEIGHTS
-    textureStore(weights_out, pixel, vec4(select(vec2(0.0), vec2(alpha, lambda), seen), 0.0, 0.0));
+    var weights = vec2(alpha, lambda);
+#ifdef OUTLIERS
+    // Below zero, for a view of outliers.
+    weights.x = select(alpha, -max(alpha, 1e-30), outlier);
+#endif
+    textureStore(weights_out, pixel, vec4(select(vec2(0.0), weights, seen), 0.0, 0.0));
 #endif
 }

@@ -93,6 +93,10 @@
 @group(0) @binding(8) var weights: texture_2d<f32>;
 #endif
 #endif
+#if VIEW == 20
+// α, below zero where the sample is an outlier.
+@group(0) @binding(8) var weights: texture_2d<f32>;
+#endif
 #if VIEW >= 10
 #if VIEW <= 11
 // History length, variance.
@@ -183,7 +187,8 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(textureLoad(weights, pixel, 0).y);
 #endif
 #if VIEW == 9
-    return vec3(textureLoad(weights, pixel, 0).x);
+    // Below zero is the weight of an outlier.
+    return vec3(abs(textureLoad(weights, pixel, 0).x));
 #endif
 #if VIEW == 10
     return vec3(history_length(textureLoad(history, pixel, 0).xy));
@@ -231,6 +236,9 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #endif
     return r;
 #endif
+#endif
+#if VIEW == 20
+    return vec3(select(0.0, 1.0, textureLoad(weights, pixel, 0).x < 0.0));
 #endif
 #if VIEW == 19
     let s = textureLoad(sum, pixel, 0);

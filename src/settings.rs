@@ -79,6 +79,7 @@ impl Settings {
         within("filter.sigma_foreshortening", f.sigma_foreshortening, 0.0, 1e6, "0…10⁶")?;
         within("filter.ridge", f.ridge, 1e-6, 1e6, "10⁻⁶…10⁶")?;
         within("filter.ridge_noise", f.ridge_noise, 0.0, 1e6, "0…10⁶")?;
+        within("filter.outlier_limit", f.outlier_limit, 0.0, 1e6, "0…10⁶")?;
         within("filter.steadiness", f.steadiness, 0.0, 1.0, "0…1")?;
         #[cfg(feature = "path-tracer")]
         {
@@ -164,6 +165,11 @@ pub struct FilterSettings {
     /// on its pixels. Higher: less flicker, and more lag where a change is missed. 0: none, which saves a pass and 16 bytes per pixel.
     /// Changing it from or to 0 compiles; from 0, it starts a new history, as does raising `iterations` from 0.
     pub steadiness: f32,
+    /// How many times as bright as its surroundings a sample may be, 0…10⁶, where not several around are as bright: what is brighter is
+    /// taken for an outlier and has no weight. Higher: more of the light that one path in ten thousand finds is kept, and more of what a
+    /// renderer's fireflies leave. Lower: the reverse; below 20, common noise loses energy. 0: everything is believed, which saves three
+    /// passes over strata. Changing it from or to 0 compiles; from 0, it starts a new history.
+    pub outlier_limit: f32,
     /// Pixels whose noise (deviation over luminance) is below this are left as they are, in whatever iteration they get there, 0…1.
     /// Higher: less time where there is little noise, and more of it stays. Lower: the filter blurs what no longer needs it. 0: never.
     pub converged: f32,
@@ -205,6 +211,7 @@ impl Default for FilterSettings {
             iterations: 4,
             final_iteration: true,
             steadiness: 0.9,
+            outlier_limit: 40.0,
             converged: 0.03,
             sigma_luminance: 4.0,
             sigma_depth: 0.0025,
@@ -240,6 +247,7 @@ impl FilterSettings {
             iterations: 5,
             final_iteration: false,
             steadiness: 0.0,
+            outlier_limit: 0.0,
             converged: 0.0,
             sigma_luminance: 4.0,
             sigma_depth: 1.0,

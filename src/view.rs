@@ -53,11 +53,15 @@ pub enum View {
     PairBefore = 18,
     /// Mean of the frames so far, in [`Mode::Reference`](crate::Mode::Reference): linear radiance. Picture: tone-mapped.
     Mean = 19,
+    /// 1 where the pixel's sample is far brighter than its surroundings and is not believed, or not wholly, see
+    /// [`FilterSettings::outlier_limit`](crate::FilterSettings::outlier_limit); 0 elsewhere. Needs
+    /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+    Outliers = 20,
 }
 
 impl View {
     /// Every view, in order.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Denoised,
         Self::Noisy,
         Self::Albedo,
@@ -78,6 +82,7 @@ impl View {
         Self::PairNow,
         Self::PairBefore,
         Self::Mean,
+        Self::Outliers,
     ];
 
     /// The name in lower case with hyphens: `history-length`.
@@ -103,6 +108,7 @@ impl View {
             Self::PairNow => "pair-now",
             Self::PairBefore => "pair-before",
             Self::Mean => "mean",
+            Self::Outliers => "outliers",
         }
     }
 

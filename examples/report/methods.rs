@@ -93,13 +93,14 @@ pub fn all() -> Vec<Method> {
 type Change = fn(&mut FilterSettings);
 
 /// Each idea of the default (docs/filter.md), undone.
-const ABLATIONS: [(&str, Change); 15] = [
+const ABLATIONS: [(&str, Change); 16] = [
     ("without gradient", |f| f.gradient = Gradient::Off),
     ("without ratio", |f| f.history_ratio = false),
     ("without linear fit", |f| f.local_linear_fit = false),
     ("constant ridge", |f| f.ridge_noise = 0.0),
     ("without final iteration", |f| f.final_iteration = false),
     ("without steadiness", |f| f.steadiness = 0.0),
+    ("without outlier limit", |f| f.outlier_limit = 0.0),
     ("with feedback", |f| f.feedback = true),
     ("variance of a sample", |f| f.variance = Variance::OfSample),
     ("classic stops", |f| {

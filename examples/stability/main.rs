@@ -14,9 +14,10 @@ mod table;
 use std::process::ExitCode;
 
 /// The groups, in the order of the table.
-const GROUPS: [(&str, &[cases::Case]); 9] = [
+const GROUPS: [(&str, &[cases::Case]); 10] = [
     ("Range of radiance", cases::radiance::CASES),
     ("Missing, infinite and repeated samples", cases::samples::CASES),
+    ("Outliers", cases::outliers::CASES),
     ("Stiff dynamics", cases::dynamics::CASES),
     ("Geometry", cases::geometry::CASES),
     ("Shapes of the image", cases::shapes::CASES),

@@ -279,6 +279,7 @@ fn exists(view: View, settings: &Settings) -> bool {
     match view {
         View::Gradient => settings.filter.gradient != Gradient::Off,
         View::Mean => settings.mode == Mode::Reference,
+        View::Outliers => settings.filter.outlier_limit > 0.0,
         _ => true,
     }
 }

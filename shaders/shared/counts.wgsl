@@ -10,6 +10,8 @@ struct Counts {
     negative: atomic<u32>,
     // Strata whose pair is not finite.
     pairs: atomic<u32>,
+    // Pixels whose sample was brighter than is believed.
+    outliers: atomic<u32>,
 }
 
-@group(0) @binding(15) var<storage, read_write> counts: Counts;
+@group(0) @binding(29) var<storage, read_write> counts: Counts;

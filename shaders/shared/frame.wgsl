@@ -66,6 +66,8 @@ struct Frame {
     ridge_noise: f32,
     // Most that the last output weighs in this one.
     steadiness: f32,
+    // Luminance that a sample may have, in multiples of its level, see outliers.wgsl.
+    outlier_limit: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

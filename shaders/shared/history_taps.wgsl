@@ -55,6 +55,10 @@ fn history_at(tap: vec2<i32>) -> vec2<u32> {
 
 #ifdef STEADY
 @group(0) @binding(15) var output_previous: texture_2d<u32>;
+
+fn output_at(tap: vec2<i32>) -> vec3<f32> {
+    return unpack_rgb(textureLoad(output_previous, tap, 0).xy);
+}
 #endif
 
 struct History {
@@ -89,7 +93,7 @@ fn own_history(pixel: vec2<i32>) -> History {
     history.length = length;
     history.weight = select(0.0, 1.0, length > 0.0);
 #ifdef STEADY
-    history.output = unpack_rgb(textureLoad(output_previous, pixel, 0).xy);
+    history.output = output_at(pixel);
 #endif
     return history;
 }
@@ -158,7 +162,7 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
     (*sum).length += weight * history_length(h);
     (*sum).weight += weight;
 #ifdef STEADY
-    (*sum).output += weight * unpack_rgb(textureLoad(output_previous, tap, 0).xy);
+    (*sum).output += weight * output_at(tap);
 #endif
 }
 

@@ -24,6 +24,8 @@ const SHARED: &[(&str, &str)] = &[
     ("history_taps", include_str!("../../shaders/shared/history_taps.wgsl")),
     ("means", include_str!("../../shaders/shared/means.wgsl")),
     ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
+    ("outliers", include_str!("../../shaders/shared/outliers.wgsl")),
+    ("pair_taps", include_str!("../../shaders/shared/pair_taps.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
     ("strata_taps", include_str!("../../shaders/shared/strata_taps.wgsl")),
     ("change", include_str!("../../shaders/shared/change.wgsl")),

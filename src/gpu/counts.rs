@@ -19,10 +19,12 @@ pub struct InputCounts {
     pub negative: u32,
     /// Strata with a pair that is infinite or not a number; it was left out.
     pub pairs: u32,
+    /// Pixels whose sample was brighter than is believed, see [`FilterSettings::outlier_limit`](crate::FilterSettings::outlier_limit).
+    pub outliers: u32,
 }
 
 /// Bytes of `Counts` in counts.wgsl.
-const SIZE: u64 = 16;
+const SIZE: u64 = 20;
 
 #[derive(Debug, Default)]
 pub(crate) struct Counters(Mailbox<InputCounts>);
@@ -41,7 +43,8 @@ impl Counters {
     pub fn end(&self, device: &Device, encoder: &mut CommandEncoder, counts: &Buffer, frame: u32) {
         self.0.fetch(device, encoder, counts, "asvgf counts readback", move |bytes| {
             let word = |i: usize| bytemuck::pod_read_unaligned(&bytes[4 * i..4 * i + 4]);
-            InputCounts { frame, surfaces: word(0), non_finite: word(1), negative: word(2), pairs: word(3) }
+            let [surfaces, non_finite, negative, pairs, outliers] = [0, 1, 2, 3, 4].map(word);
+            InputCounts { frame, surfaces, non_finite, negative, pairs, outliers }
         });
     }
 

@@ -39,8 +39,9 @@ pub(crate) struct FrameUniform {
     sigma_foreshortening: f32,
     ridge_noise: f32,
     steadiness: f32,
+    outlier_limit: f32,
     // WGSL rounds a struct's size up to that of a vector.
-    padding: [u32; 2],
+    padding: u32,
 }
 
 /// What differs from frame to frame.
@@ -105,7 +106,8 @@ impl FrameUniform {
             sigma_foreshortening: f.sigma_foreshortening,
             ridge_noise: f.ridge_noise,
             steadiness: f.steadiness,
-            padding: [0; 2],
+            outlier_limit: f.outlier_limit,
+            padding: 0,
         }
     }
 }
@@ -175,7 +177,7 @@ mod tests {
         let fields = fields!(FrameUniform: size, strata, camera, previous, index, seed, continued, samples, batch, first_sample, bounces, roulette,
             alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
             ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block, converged,
-            sigma_foreshortening, ridge_noise, steadiness);
+            sigma_foreshortening, ridge_noise, steadiness, outlier_limit);
         assert_layout("Frame", fields, size_of::<FrameUniform>());
     }
 }

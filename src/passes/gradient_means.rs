@@ -3,12 +3,21 @@
 use super::{Pass, modulation, reprojection};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] =
-    &[Feature::Objects, Feature::Feedback, Feature::HostMotion, Feature::HostLight, Feature::MissingSamples];
+const FEATURES: &[Feature] = &[
+    Feature::Objects,
+    Feature::Feedback,
+    Feature::HostMotion,
+    Feature::HostLight,
+    Feature::MissingSamples,
+    Feature::Outliers,
+];
 
 pub(crate) fn step(given: Features) -> Step {
     let features = modulation(given, given.and(Features::of(FEATURES)));
     let mut bindings = reprojection(features);
+    if features.has(Feature::Outliers) {
+        bindings.push(("limit", Slot::Now(Image::OutlierLimit)));
+    }
     bindings.extend([
         ("samples_out", Slot::Now(Image::Samples)),
         ("now_out", Slot::Now(Image::MeansNow(0))),

@@ -1,6 +1,6 @@
 //! Radiances of the gradient's paths, see shaders/gradient_pairs.wgsl.
 
-use super::Pass;
+use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
 /// Where the radiances of a path are, now and before: in the images of two frames, or in those of the host's pairs.
@@ -12,20 +12,25 @@ pub(crate) fn sources(features: Features) -> [Slot; 2] {
     }
 }
 
-pub(crate) fn step(features: Features) -> Step {
-    let features = features.and(Features::of(&[Feature::Pairs]));
+/// What finds a stratum's two radiances and tells whether they are believed, see shaders/shared/pair_taps.wgsl.
+pub(crate) fn taps(features: Features) -> Vec<(&'static str, Slot)> {
     let [now, before] = sources(features);
-    Step {
-        pass: Pass::GradientPairs,
+    bindings(
         features,
-        grid: Grid::Strata,
-        iteration: 0,
-        bindings: vec![
-            ("samples", Slot::Now(Image::Samples)),
-            ("radiance", now),
-            ("radiance_previous", before),
-            ("now_out", Slot::Now(Image::PairsNow(0))),
-            ("before_out", Slot::Now(Image::PairsBefore(0))),
+        [
+            ("samples", Slot::Now(Image::Samples), &[]),
+            ("radiance", now, &[]),
+            ("radiance_previous", before, &[]),
+            ("limit", Slot::Now(Image::OutlierLimit), &[Feature::Outliers]),
+            ("history_previous", Slot::Before(Image::History), &[Feature::Outliers]),
         ],
-    }
+    )
+}
+
+pub(crate) fn step(features: Features) -> Step {
+    let features = features.and(Features::of(&[Feature::Pairs, Feature::Outliers]));
+    let mut bindings = taps(features);
+    bindings.push(("now_out", Slot::Now(Image::PairsNow(0))));
+    bindings.push(("before_out", Slot::Now(Image::PairsBefore(0))));
+    Step { pass: Pass::GradientPairs, features, grid: Grid::Strata, iteration: 0, bindings }
 }

@@ -3,8 +3,14 @@
 use super::{Pass, bindings};
 use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
 
-const FEATURES: &[Feature] =
-    &[Feature::Albedo, Feature::DirectEmission, Feature::Modulated, Feature::Diagnostics, Feature::Reshade];
+const FEATURES: &[Feature] = &[
+    Feature::Albedo,
+    Feature::DirectEmission,
+    Feature::Modulated,
+    Feature::Diagnostics,
+    Feature::Reshade,
+    Feature::MissingSamples,
+];
 
 pub(crate) fn step(features: Features) -> Step {
     use Feature::{Albedo, DirectEmission, Modulated, Reshade};

@@ -15,6 +15,9 @@ pub(crate) mod gradient_sample;
 pub(crate) mod ingest_pairs;
 pub(crate) mod ingest_radiance;
 pub(crate) mod ingest_surface;
+pub(crate) mod outlier_candidates;
+pub(crate) mod outlier_counts;
+pub(crate) mod outlier_limit;
 pub(crate) mod reshade;
 pub(crate) mod resolve;
 pub(crate) mod steady;
@@ -48,6 +51,12 @@ pub enum Pass {
     IngestRadiance,
     /// A host's pairs for the gradient.
     IngestPairs,
+    /// Samples that may be outliers.
+    OutlierCandidates,
+    /// How many there are in a row of strata.
+    OutlierCounts,
+    /// How far above its level a sample is believed.
+    OutlierLimit,
     /// Radiances of the gradient's paths, now and before.
     GradientPairs,
     /// Their filter.
@@ -89,6 +98,9 @@ impl Pass {
             Self::Trace => "trace",
             Self::IngestRadiance => "ingest_radiance",
             Self::IngestPairs => "ingest_pairs",
+            Self::OutlierCandidates => "outlier_candidates",
+            Self::OutlierCounts => "outlier_counts",
+            Self::OutlierLimit => "outlier_limit",
             Self::GradientPairs => "gradient_pairs",
             Self::GradientPairsFilter => "gradient_pairs_filter",
             Self::Gradient => "gradient",
@@ -124,6 +136,9 @@ impl Pass {
             Self::Trace => include_str!("../../shaders/trace.wgsl"),
             Self::IngestRadiance => include_str!("../../shaders/ingest_radiance.wgsl"),
             Self::IngestPairs => include_str!("../../shaders/ingest_pairs.wgsl"),
+            Self::OutlierCandidates => include_str!("../../shaders/outlier_candidates.wgsl"),
+            Self::OutlierCounts => include_str!("../../shaders/outlier_counts.wgsl"),
+            Self::OutlierLimit => include_str!("../../shaders/outlier_limit.wgsl"),
             Self::GradientPairs => include_str!("../../shaders/gradient_pairs.wgsl"),
             Self::GradientPairsFilter => include_str!("../../shaders/gradient_pairs_filter.wgsl"),
             Self::Gradient => include_str!("../../shaders/gradient.wgsl"),
@@ -160,15 +175,18 @@ fn modulation(given: Features, mut features: Features) -> Features {
     features
 }
 
+/// A host's own image, or its copy.
+fn source(features: Features, direct: Feature, image: Image) -> Slot {
+    if features.has(direct) { Slot::Host } else { Slot::Now(image) }
+}
+
 /// What finds a pixel's sample, its surface in the last frame, and the history there.
 fn reprojection(features: Features) -> Vec<(&'static str, Slot)> {
-    // A host's own image, or its copy.
-    let source = |direct, image| if features.has(direct) { Slot::Host } else { Slot::Now(image) };
     let mut found = bindings(
         features,
         [
             ("guide", Slot::Now(Image::Guide), &[]),
-            ("radiance", source(Feature::HostLight, Image::Radiance), &[]),
+            ("radiance", source(features, Feature::HostLight, Image::Radiance), &[]),
             ("albedo", Slot::Host, &[Feature::Albedo]),
             ("emission", Slot::Host, &[Feature::DirectEmission]),
             ("history_previous", Slot::Before(Image::History), &[]),
@@ -181,7 +199,7 @@ fn reprojection(features: Features) -> Vec<(&'static str, Slot)> {
             features,
             [
                 ("guide_previous", Slot::Before(Image::Guide), &[]),
-                ("motion", source(Feature::HostMotion, Image::Motion), &[]),
+                ("motion", source(features, Feature::HostMotion, Image::Motion), &[]),
                 ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
                 ("object", Slot::Now(Image::Object), &[Feature::Objects]),
                 ("object_previous", Slot::Before(Image::Object), &[Feature::Objects]),

@@ -19,7 +19,7 @@ const FEATURES: &[Feature] = &[
 pub(crate) fn step(features: Features, color: Option<Image>) -> Step {
     let mut known = Features::of(FEATURES);
     if features.has(Feature::HostLight) {
-        known = known.with(Feature::Modulated);
+        known = known.with(Feature::Modulated).with(Feature::MissingSamples);
     }
     let features = features.and(known);
     // A host's own image, or its copy.

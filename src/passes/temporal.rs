@@ -18,6 +18,7 @@ const FEATURES: &[Feature] = &[
     Feature::HostLight,
     Feature::MissingSamples,
     Feature::Steady,
+    Feature::Outliers,
     Feature::KeepWeights,
 ];
 
@@ -27,7 +28,10 @@ pub(crate) fn step(given: Features, gradient: Option<Image>) -> Step {
     if features.has(Feature::Still) {
         features = features.without(Feature::Objects).without(Feature::HostMotion);
     }
-    let features = modulation(given, features);
+    let mut features = modulation(given, features);
+    if features.has(Feature::Outliers) {
+        features = features.or(given.and(Features::of(&[Feature::Diagnostics])));
+    }
     let gradient = gradient.unwrap_or(Image::Gradient(0));
     let mut all = reprojection(features);
     all.extend(bindings(
@@ -35,6 +39,8 @@ pub(crate) fn step(given: Features, gradient: Option<Image>) -> Step {
         [
             ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),
             ("samples", Slot::Now(Image::Samples), &[Feature::Gradient]),
+            ("candidates", Slot::Now(Image::Candidates), &[Feature::Outliers]),
+            ("limit", Slot::Now(Image::OutlierLimit), &[Feature::Outliers]),
             ("gradient", Slot::Now(gradient), &[Feature::Gradient]),
             ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
             ("external_lambda", Slot::Host, &[Feature::ExternalLambda]),

@@ -26,8 +26,13 @@ pub(crate) fn step(
         (View::Gradient, None) if !plan.features.has(Feature::Unchanged) => return missing("the gradient is off"),
         _ => Slot::Target,
     };
-    if matches!(view, View::Lambda | View::Alpha | View::HistoryLength | View::Variance) && mode != Mode::Denoise {
+    if matches!(view, View::Lambda | View::Alpha | View::Outliers | View::HistoryLength | View::Variance)
+        && mode != Mode::Denoise
+    {
         return missing("there is no history in this mode");
+    }
+    if view == View::Outliers && !plan.features.has(Feature::Outliers) {
+        return missing("every sample is believed: set FilterSettings::outlier_limit");
     }
     if view == View::TriangleId && !has(Image::Visibility) {
         return missing("there is no visibility buffer");
@@ -123,7 +128,7 @@ pub(crate) fn step(
         View::MotionError => &["guide", "motion"],
         View::Gradient if features.has(Feature::Unchanged) => &[],
         View::Gradient => &["gradient"],
-        View::Lambda | View::Alpha => &["weights"],
+        View::Lambda | View::Alpha | View::Outliers => &["weights"],
         View::HistoryLength | View::Variance => &["history"],
         View::NonFinite => &["color"],
         View::Emission => &["emission"],

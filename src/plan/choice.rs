@@ -207,5 +207,10 @@ fn filter(
             spatial && filter.steadiness > 0.0,
             ["the last output steadies this one", "no steadiness is set, or nothing is filtered in space"],
         ),
+        (
+            Outliers,
+            filter.outlier_limit > 0.0,
+            ["a sample far above its surroundings is not believed", "no limit of outliers is set"],
+        ),
     ]
 }

@@ -83,6 +83,8 @@ features! {
     SmallKernel,
     /// The last output is blended into this one.
     Steady,
+    /// A sample far brighter than its surroundings is not believed.
+    Outliers,
     /// The target shows the samples as they are.
     Unfiltered,
     /// The target shows the mean over frames.

@@ -58,6 +58,14 @@ pub enum Image {
     Reprojected,
     /// The filtered colour with the last one blended in.
     Output,
+    /// The sample of each stratum that is farthest above its level, and what the stratum's other pixels show.
+    Candidates,
+    /// How many strata of a row have such a sample, by how far above.
+    CandidateCounts,
+    /// What the pixels of a row show.
+    CandidateSums,
+    /// How far above its level a sample may be in each stratum, and that level where there is no history.
+    OutlierLimit,
 }
 
 /// How many texels an image has, or invocations a pass.
@@ -97,7 +105,11 @@ impl Image {
             | Self::MeansNow(_)
             | Self::MeansBefore(_)
             | Self::Gradient(_)
-            | Self::Ratio => TextureFormat::Rgba32Uint,
+            | Self::Ratio
+            | Self::Candidates
+            | Self::CandidateCounts
+            | Self::CandidateSums
+            | Self::OutlierLimit => TextureFormat::Rgba32Uint,
             Self::Albedo => TextureFormat::Rgba16Float,
             Self::Sum | Self::Paths(_) => TextureFormat::Rgba32Float,
             Self::Weights => TextureFormat::Rg32Float,
@@ -117,7 +129,11 @@ impl Image {
             | Self::MeansNow(_)
             | Self::MeansBefore(_)
             | Self::Gradient(_)
-            | Self::Ratio => Grid::Strata,
+            | Self::Ratio
+            | Self::Candidates
+            | Self::CandidateCounts
+            | Self::CandidateSums
+            | Self::OutlierLimit => Grid::Strata,
             _ => Grid::Pixels,
         }
     }
@@ -156,6 +172,10 @@ impl Image {
             Self::Weights => "weights",
             Self::Reprojected => "reprojected",
             Self::Output => "output",
+            Self::Candidates => "candidates",
+            Self::CandidateCounts => "candidate counts",
+            Self::CandidateSums => "candidate sums",
+            Self::OutlierLimit => "outlier limit",
         }
     }
 }

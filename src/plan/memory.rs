@@ -325,13 +325,18 @@ mod tests {
             plan.bytes(size, false) as f64 / f64::from(size[0] * size[1])
         };
         let bytes = |gradient, traits| {
-            let bare = bytes_of(FilterSettings { gradient, steadiness: 0.0, ..Default::default() }, traits);
+            let believing = FilterSettings { gradient, outlier_limit: 0.0, ..Default::default() };
+            let bare = bytes_of(FilterSettings { steadiness: 0.0, ..believing.clone() }, traits);
             // The output, now and before.
-            assert_eq!(
-                bytes_of(FilterSettings { gradient, ..Default::default() }, traits),
-                bare + 16.0,
-                "{gradient:?}"
-            );
+            let steady = bytes_of(believing, traits);
+            assert_eq!(steady, bare + 16.0, "{gradient:?}");
+            // The strata's candidates and limits, now and before; what is counted on the way gives way to others.
+            let limited = bytes_of(FilterSettings { gradient, ..Default::default() }, traits);
+            let records = match gradient {
+                Gradient::Off | Gradient::Lambda => 4.0,
+                _ => 2.0,
+            };
+            assert!((limited - steady - records * 16.0 / 9.0).abs() < 1e-9, "{gradient:?}: {}", limited - steady);
             bare
         };
         let alone = HostTraits::default();

@@ -173,6 +173,11 @@ impl Plan {
         }
         let Settings { filter, .. } = settings;
         let features = self.features;
+        if features.has(Feature::Outliers) {
+            self.steps.push(passes::outlier_candidates::step(features));
+            self.steps.push(passes::outlier_counts::step());
+            self.steps.push(passes::outlier_limit::step());
+        }
         if features.has(Feature::Statistics) {
             self.steps.push(passes::gradient_means::step(features));
             let levels = 0..passes::gradient_of_means::COARSEST;

@@ -5,6 +5,7 @@ use super::codec::{
     Kept, depth, luminance, pack_history, pack_motion, pack_rgb, radiance, unpack_history, unpack_motion,
     unpack_normal, unpack_rgb, word,
 };
+use super::outliers;
 use super::plane::{Pinhole, V, add, dot, scale, sub};
 use super::random::Random;
 use crate::Settings;
@@ -28,6 +29,8 @@ pub(super) struct Given {
     pub(super) gradient: Vec<Texel>,
     pub(super) ratio: Vec<Texel>,
     pub(super) external: Vec<Texel>,
+    pub(super) candidates: Vec<Texel>,
+    pub(super) limit: Vec<Texel>,
 }
 
 /// What is noted on the way, see [`Blended`].
@@ -143,6 +146,8 @@ impl Given {
                 _ => [word(random.unit()); 4],
             })
             .collect();
+        let candidates = outliers::candidates(&bench, &mut Random(3));
+        let limit = outliers::limits(&bench, &mut Random(4));
         let ratio = samples.iter().map(|_| [0; 4].map(|_| word(random.between(0.25, 4.0)))).collect();
         Self {
             bench,
@@ -160,6 +165,8 @@ impl Given {
             gradient,
             ratio,
             external,
+            candidates,
+            limit,
         }
     }
 
@@ -179,6 +186,8 @@ impl Given {
             ("gradient", self.gradient.clone()),
             ("ratio", self.ratio.clone()),
             ("external_lambda", self.external.clone()),
+            ("candidates", self.candidates.clone()),
+            ("limit", self.limit.clone()),
         ];
         all.into_iter().filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|b| b.0 == *n)).collect()
     }

@@ -30,6 +30,7 @@ mod ingest_pairs;
 mod ingest_radiance;
 mod ingest_surface;
 mod last_frame;
+mod outliers;
 mod packing;
 mod properties;
 mod reshade;

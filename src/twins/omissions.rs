@@ -126,7 +126,7 @@ fn what_the_settings_and_the_frame_do_not_ask_for_is_not_in_the_shaders() {
         8,
         "sample, pairs, 3 × their filter, gradient, 2 × its filter"
     );
-    let bare = FilterSettings { iterations: 0, gradient: Gradient::Off, ..Default::default() };
+    let bare = FilterSettings { iterations: 0, gradient: Gradient::Off, outlier_limit: 0.0, ..Default::default() };
     let bare = plan(&Traits::default(), bare, Changes::ANY);
     assert_eq!(passes(&bare), [Pass::Visibility, Pass::Trace, Pass::Temporal, Pass::Resolve]);
     let size = [1920, 1080];

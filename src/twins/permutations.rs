@@ -109,6 +109,7 @@ fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
             ridge_noise: if on(5) { 1.5 } else { 0.0 },
             final_iteration: on(7),
             steadiness: if on(3) { 0.9 } else { 0.0 },
+            outlier_limit: if on(9) { 40.0 } else { 0.0 },
             iterations: if on(8) { 5 } else { 0 },
             gradient_iterations: if on(9) { 3 } else { 0 },
             ..Default::default()
@@ -271,7 +272,7 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
         *counts.entry(permutation.pass.name()).or_default() += 1;
     }
     println!("{counts:?}");
-    assert_eq!(counts.len(), 20, "a pass is never run: {counts:?}");
+    assert_eq!(counts.len(), 23, "a pass is never run: {counts:?}");
     let reached: Features = steps.keys().flat_map(|permutation| permutation.features.iter()).collect();
     // It decides which passes there are, and nothing within them.
     let reached = reached.with(Feature::Statistics);

@@ -5,7 +5,7 @@ use super::codec::{
     VARIANCE_UNIT, assert_close, depth, float, float_code, history_exponent, luminance, rounding, unpack_history,
     unpack_normal, unpack_rgb, unpack_tap, variance_code,
 };
-use super::last_frame::{Given, INFINITE, NO_SAMPLE, Notes};
+use super::last_frame::{Before, Given, INFINITE, NO_SAMPLE, Notes};
 use super::plane::{V, add, scale};
 use super::strata::{Site, exponent, falloff};
 use crate::passes::temporal;
@@ -25,6 +25,8 @@ pub(super) struct Blended {
     /// The last output, reprojected and rescaled, and its weight in this one.
     last_output: V,
     steadiness: f64,
+    /// It is not wholly believed.
+    outlier: bool,
     /// A threshold was so near that rounding may decide otherwise.
     unsure: bool,
     /// The largest numbers that went in: errors are relative to these.
@@ -80,17 +82,52 @@ impl Given {
         found
     }
 
+    /// What a sample is compared with.
+    fn level(&self, before: &Before) -> f64 {
+        let output = if self.has(Feature::Steady) { luminance(before.output) } else { 0.0 };
+        luminance(before.color).max(output)
+    }
+
+    /// The host's, if it is a number.
+    fn external_lambda(&self, x: i32, y: i32) -> f64 {
+        let block = self.bench.lambda_block as i32;
+        let across = self.bench.size[0].div_ceil(self.bench.lambda_block) as i32;
+        let value = float(self.external[(y / block * across + x / block) as usize][0]);
+        let lambda = if self.has(Feature::Confidence) { 1.0 - value } else { value };
+        if value.is_finite() { lambda.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
     pub(super) fn twin(&self, x: i32, y: i32) -> Blended {
         let i = self.bench.at(x, y).unwrap();
         let f = &self.bench.settings.filter;
-        let sample = unpack_rgb([self.radiance[i][0], self.radiance[i][1] & !INFINITE]);
-        let l = luminance(sample);
+        let mut sample = unpack_rgb([self.radiance[i][0], self.radiance[i][1] & !INFINITE]);
+        let mut l = luminance(sample);
         let sampled = self.radiance[i] != NO_SAMPLE && self.radiance[i][1] & INFINITE == 0;
         let length = if sampled { 1.0 } else { 0.0 };
         let mut out = Blended { color: sample, mean: l, length, alpha: 1.0, ..Default::default() };
         let mut notes = Notes { largest: sample.into_iter().fold(l, f64::max), ..Default::default() };
         let before = self.bench.continued.then(|| self.before(i, x, y, &mut notes)).flatten();
         (out.unsure, out.largest) = (notes.unsure, notes.largest);
+        let level = before.as_ref().map_or([0.0; 2], |b| [self.level(b), b.length]);
+        if before.is_some() && self.has(Feature::Gradient) {
+            out.lambda = self.change(i, x, y, &mut out.unsure).1;
+        }
+        if before.is_some() && self.has(Feature::ExternalLambda) {
+            out.lambda = self.external_lambda(x, y);
+        }
+        let belief = self
+            .has(Feature::Outliers)
+            .then(|| self.belief([x, y], l, [level[0], level[1], out.lambda], &mut out.unsure));
+        if let Some(belief) = belief {
+            // Without a history: the sample as far as it is believed, else as bright as what is around.
+            let doubted = (belief.around / l.max(1e-37)).min(1.0);
+            let first = belief.weight * belief.scale + (1.0 - belief.weight) * doubted;
+            out.color = scale(sample, first);
+            out.mean = l * first;
+            out.outlier = sampled && belief.weight < 1.0;
+            sample = scale(sample, belief.scale);
+            l *= belief.scale;
+        }
         let Some(mut before) = before else { return out };
         // A still image's history may be longer than others are allowed to be.
         let mut kept = before.length.min(f.max_history.into());
@@ -98,7 +135,6 @@ impl Given {
         out.last_output = before.output;
         if self.has(Feature::Gradient) {
             let (ratio, lambda) = self.change(i, x, y, &mut out.unsure);
-            out.lambda = lambda;
             if self.has(Feature::HistoryRatio) {
                 before.color = [0, 1, 2].map(|c| before.color[c] * ratio[c]);
                 before.mean *= ratio[3];
@@ -110,11 +146,6 @@ impl Given {
             kept *= (1.0 - lambda).powf(f.history_power.into());
         }
         if self.has(Feature::ExternalLambda) {
-            let block = self.bench.lambda_block as i32;
-            let across = self.bench.size[0].div_ceil(self.bench.lambda_block) as i32;
-            let value = float(self.external[(y / block * across + x / block) as usize][0]);
-            let lambda = if self.has(Feature::Confidence) { 1.0 - value } else { value };
-            out.lambda = if value.is_finite() { lambda.clamp(0.0, 1.0) } else { 0.0 };
             kept *= (1.0 - out.lambda).powf(f.history_power.into());
         }
         let least = f64::from(f.alpha);
@@ -130,10 +161,17 @@ impl Given {
             let worth = 1.0 / ((1.0 - alpha).powi(2) / kept.max(1e-9) + alpha.powi(2));
             out.length = worth.min(f.max_history.into());
         }
+        if let Some(belief) = belief {
+            (alpha, out.length) = if belief.confirmed {
+                (1.0, 1.0)
+            } else {
+                (alpha * belief.weight, kept + belief.weight * (out.length - kept))
+            };
+        }
         let stratum = self.bench.stratum(x / 3, y / 3).unwrap();
         if self.has(Feature::InPlace) && self.samples[stratum][0] as i32 == y % 3 * 3 + x % 3 + 1 {
             // What repeats a path is not new: it only fills in for what λ drops.
-            alpha = out.lambda;
+            alpha = out.lambda * belief.map_or(1.0, |b| b.weight);
             out.length = kept.max(1.0);
         }
         if !sampled {
@@ -159,7 +197,7 @@ impl Given {
 }
 
 fn check(features: &[Feature], settings: &Settings) {
-    let (mut compared, mut unsure, mut followed) = (0, 0, 0);
+    let (mut compared, mut unsure, mut followed, mut outliers) = (0, 0, 0, 0);
     for (size, moving, continued) in
         SIZES.into_iter().flat_map(|s| [(s, false, true), (s, true, true), (s, true, false)])
     {
@@ -182,6 +220,11 @@ fn check(features: &[Feature], settings: &Settings) {
                 unsure += 1;
                 continue;
             }
+            outliers += usize::from(expected.outlier);
+            if let (Some([alpha, _]), true) = (weights, given.has(Feature::Outliers)) {
+                assert_eq!(alpha < 0.0, expected.outlier, "{}: an outlier", what());
+            }
+            let weights = weights.map(|[alpha, lambda]| [alpha.abs(), lambda]);
             for (found, expected) in weights.into_iter().flatten().zip([expected.alpha, expected.lambda]) {
                 assert_close(found, expected, 2e-3, || format!("{}: α, λ", what()));
             }
@@ -227,7 +270,11 @@ fn check(features: &[Feature], settings: &Settings) {
             );
         }
     }
-    println!("{features:?}: {compared} pixels, {followed} with a history, {unsure} at a threshold");
+    println!(
+        "{features:?}: {compared} pixels, {followed} with a history, {outliers} outliers, {unsure} at a threshold"
+    );
+    let outliers_are_there = !features.contains(&Feature::Outliers) || outliers * 50 >= compared;
+    assert!(outliers_are_there, "{features:?}: {outliers} outliers");
     assert!(unsure * 10 <= compared && followed * 4 >= compared, "{features:?}: the test has lost its grip");
 }
 
@@ -282,6 +329,11 @@ fn every_reachable_kind_of_blending() {
     check(&[Steady, Still], &power(3.5));
     check(&[Steady, Gradient, InPlace, AcrossSurfaces, HistoryRatio], &power(3.5));
     check(&[Steady, MissingSamples, ExternalLambda], &power(3.5));
+    // With samples that are not believed.
+    check(&[Outliers, KeepWeights], &power(3.5));
+    check(&[Outliers, Steady, Still, MissingSamples], &power(3.5));
+    check(&[Outliers, Steady, Gradient, InPlace, AcrossSurfaces, HistoryRatio, KeepWeights], &power(3.5));
+    check(&[Outliers, ExternalLambda, MissingSamples, KeepWeights], &power(3.5));
     // For views.
     check(&[Gradient, InPlace, AcrossSurfaces, HistoryRatio, KeepWeights], &power(3.5));
     check(&[Gradient, InPlace, BlendByLambda, Feedback, KeepWeights], &power(2.0));

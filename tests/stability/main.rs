@@ -41,4 +41,4 @@ macro_rules! groups {
     };
 }
 
-groups!(radiance, samples, dynamics, geometry, shapes, events, hostile, limits);
+groups!(radiance, samples, outliers, dynamics, geometry, shapes, events, hostile, limits);

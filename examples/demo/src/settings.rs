@@ -78,6 +78,7 @@ pub const FILTER: &[Setting] = &[
     whole!(filter.iterations, 0..=8),
     switch!(filter.final_iteration),
     number!(filter.steadiness, 0.0..=1.0, false),
+    number!(filter.outlier_limit, 0.0..=1e3, false),
     number!(filter.converged, 0.0..=1.0, false),
     number!(filter.sigma_luminance, 0.0..=32.0, false),
     number!(filter.sigma_depth, 1e-4..=10.0, true),

@@ -166,7 +166,7 @@ fn a_view_of_what_was_not_made() {
     stage.denoiser.set_settings(Settings { filter: off, ..Settings::adaptive() }).unwrap();
     let gradient = [View::Object, View::Gradient, View::PairNow, View::PairBefore, View::Mean];
     expect(stage.frame(), &gradient);
-    let history = [View::Lambda, View::Alpha, View::HistoryLength, View::Variance];
+    let history = [View::Lambda, View::Alpha, View::Outliers, View::HistoryLength, View::Variance];
     let filtered = [View::Denoised, View::NonFinite];
     stage.denoiser.set_settings(Settings { mode: Mode::Noisy, ..Settings::adaptive() }).unwrap();
     expect(stage.frame(), &[history.as_slice(), &filtered, &gradient].concat());

@@ -94,7 +94,7 @@ fn the_modes_without_a_filter_show_the_samples_and_their_mean() {
     assert_eq!(moving, noisy, "the camera moves, so each frame is a mean of one");
 }
 
-/// Ink that reflects nothing, between paper that does, borrows next to no light from it.
+/// Ink that reflects nothing, between paper that does, borrows next to no light from it, and takes none.
 #[test]
 fn black_texels_stay_black() {
     let frames = recorded(Settings::adaptive());
@@ -122,6 +122,7 @@ fn black_texels_stay_black() {
         let (black, paper, expected) = (mean(&images[0], true), mean(&images[0], false), mean(&images[1], false));
         println!("frame {}: ink {black:.5}, paper {paper:.4}, without ink {expected:.4}", frame.index);
         // An albedo of 0 counts as 0.02 where it divides, and so where it multiplies.
+        assert!((paper / expected - 1.0).abs() < 0.06, "frame {}: paper of {paper}, not {expected}", frame.index);
         assert!(black < 0.02 * expected, "frame {}: ink of {black} on paper of {paper}", frame.index);
     }
 }

@@ -6,6 +6,7 @@ pub mod furnace;
 pub mod geometry;
 pub mod hostile;
 pub mod limits;
+pub mod outliers;
 pub mod painted;
 pub mod radiance;
 pub mod samples;

@@ -1,0 +1,172 @@
+// Which samples may be outliers: in each stratum the one that is farthest above its level, and what the other pixels show.
+//
+// A candidate is brighter than half of B (outliers.wgsl), or was one in the last frame and is still half as bright, so that a steady highlight
+// is seen to be one. Its history is that of the nearest pixel where its surface was, of any surface:
+// what is wrong at an edge costs a candidate too many. A pixel without a history is compared with the others of its stratum.
+//
+//   m ← max(l, 0.6·m')        of the stratum where its surface was: light that few paths find shows every few frames
+//   e ← e' + (Σl − e')/min(n + 1, 16)       over the candidates
+
+#import asvgf::frame::{frame, inside}
+#import asvgf::color::luminance
+#import asvgf::history::{history_color, history_length}
+#import asvgf::history_taps::history_at
+#import asvgf::outliers::{Candidate, LEAST_LEVEL, bound, pack_candidate, ratio_to, unpack_candidate, unpack_limit}
+#import asvgf::packing::unpack_rgb
+#import asvgf::sample::sample_at
+#import asvgf::strata::stratum_of
+#ifdef MISSING_SAMPLES
+#import asvgf::packing::is_sample
+#endif
+#ifdef STEADY
+#import asvgf::history_taps::output_at
+#endif
+#ifdef IN_PLACE
+#import asvgf::strata::is_sample_pixel
+#endif
+#ifndef STILL
+#import asvgf::history_taps::motion_of
+#endif
+
+@group(0) @binding(1) var guide: texture_2d<u32>;
+#ifdef IN_PLACE
+@group(0) @binding(6) var samples: texture_2d<u32>;
+#endif
+@group(0) @binding(9) var candidates_previous: texture_2d<u32>;
+@group(0) @binding(10) var limit_previous: texture_2d<u32>;
+@group(0) @binding(11) var candidates_out: texture_storage_2d<rgba32uint, write>;
+
+// Part of a candidate's luminance that is left a frame later.
+const KEPT: f32 = 0.6;
+
+// Frames over which the light that candidates imply is averaged.
+const SLOW: f32 = 16.0;
+
+// Sightings that are counted.
+const MOST_SIGHTINGS: u32 = 7u;
+
+// Where a pixel's surface was.
+fn origin(pixel: vec2<i32>, depth: f32) -> vec2<i32> {
+#ifdef STILL
+    return pixel;
+#else
+    return vec2<i32>(floor(vec2<f32>(pixel) + 0.5 + motion_of(pixel, depth).xy));
+#endif
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let stratum = vec2<i32>(id.xy);
+    var now = Candidate();
+    // Where the stratum was.
+    var last_stratum = vec2(-1);
+    var length = 0.0;
+    var farthest = 0.0;
+#ifdef IN_PLACE
+    var carried = vec2(0u);
+#endif
+    var implied = 0.0;
+    // Samples without a history: their sum, the largest, where that is, and how many.
+    var fresh = 0.0;
+    var largest = 0.0;
+    var largest_at = 0u;
+    var largest_sightings = 0u;
+    var fresh_count = 0.0;
+    for (var k = 0u; k < 9u; k++) {
+        // From the centre on.
+        let at = select(k + 4u, k - 5u, k > 4u);
+        let row = (at * 11u) >> 5u;
+        let pixel = stratum * 3 + vec2<i32>(vec2(at - 3u * row, row));
+        if !inside(pixel) {
+            continue;
+        }
+        let g = textureLoad(guide, pixel, 0).xy;
+        if g.y == 0u {
+            continue;
+        }
+        let arrived = sample_at(pixel, true);
+#ifdef MISSING_SAMPLES
+        if !is_sample(arrived) {
+            continue;
+        }
+#endif
+        let before = origin(pixel, bitcast<f32>(g.y));
+        let known = frame.continued != 0u && inside(before);
+        let tap = clamp(before, vec2(0), vec2<i32>(frame.size) - 1);
+        // How often running it was a candidate before.
+        let there = stratum_of(vec2<u32>(tap));
+        let last = unpack_candidate(textureLoad(candidates_previous, there, 0));
+        let within = vec2<u32>(tap) - 3u * there;
+        let was_one = known && last.place == within.y * 3u + within.x + 1u;
+#ifdef IN_PLACE
+        // A repeated path is no new sample: nothing is learnt of a candidate there, and nothing forgotten.
+        if is_sample_pixel(textureLoad(samples, stratum, 0), vec2<u32>(pixel)) {
+            carried = select(carried, vec2(at + 1u, last.sightings), was_one);
+            continue;
+        }
+#endif
+        let l = luminance(unpack_rgb(arrived));
+        let sightings = select(0u, last.sightings, was_one && 2.0 * l >= last.brightest);
+        let h = history_at(tap);
+        let n = select(0.0, history_length(h), known);
+        now.seen += 1u;
+        if known && last_stratum.x < 0 {
+            last_stratum = vec2<i32>(there);
+            length = n;
+        }
+        if n <= 0.0 {
+            fresh += l;
+            fresh_count += 1.0;
+            largest_at = select(largest_at, at + 1u, l > largest);
+            largest_sightings = select(largest_sightings, sightings, l > largest);
+            largest = max(largest, l);
+            continue;
+        }
+        var level = luminance(history_color(h));
+#ifdef STEADY
+        level = max(level, luminance(output_at(tap)));
+#endif
+        let around = unpack_limit(textureLoad(limit_previous, there, 0)).expected;
+        let ratio = ratio_to(bound(max(level, LEAST_LEVEL * around), n), l);
+        let candidate = ratio > 0.5 || (sightings > 0u && sightings < MOST_SIGHTINGS && l > 0.0);
+        now.expected += level;
+        now.candidates += select(0u, 1u, candidate);
+        implied += select(0.0, l, candidate);
+        now.ordinary += select(l, 0.0, candidate);
+        now.lit += select(0u, 1u, !candidate && l > 0.0);
+        if candidate && ratio > farthest {
+            farthest = ratio;
+            now.brightest = l;
+            now.place = at + 1u;
+            now.sightings = min(sightings + 1u, MOST_SIGHTINGS);
+        }
+    }
+    let others = (fresh - largest) / max(fresh_count - 1.0, 1.0);
+    let ratio = ratio_to(bound(others, 1.0), largest);
+    let candidate = fresh_count > 1.0 && ratio > 0.5;
+    now.candidates += select(0u, 1u, candidate);
+    implied += select(0.0, largest, candidate);
+    now.ordinary += fresh - select(0.0, largest, candidate);
+    now.expected += fresh - select(0.0, largest, candidate);
+    now.lit += select(0u, u32(fresh_count) - select(0u, 1u, candidate), others > 0.0);
+    if candidate && ratio > farthest {
+        now.brightest = largest;
+        now.place = largest_at;
+        now.sightings = min(largest_sightings + 1u, MOST_SIGHTINGS);
+    }
+#ifdef IN_PLACE
+    now.sightings = select(now.sightings, carried.y, now.place == 0u);
+    now.place = select(now.place, carried.x, now.place == 0u);
+#endif
+    now.length = u32(length);
+    now.implied = implied;
+    if last_stratum.x >= 0 {
+        let last = unpack_candidate(textureLoad(candidates_previous, last_stratum, 0));
+        now.brightest = max(now.brightest, KEPT * last.brightest);
+        now.implied = last.implied + (implied - last.implied) / min(length + 1.0, SLOW);
+        // What is far darker than that light is no light to compare it with.
+        let dark = 1e-10 * unpack_limit(textureLoad(limit_previous, last_stratum, 0)).implied;
+        now.lit = select(0u, now.lit, now.ordinary > dark * f32(now.seen));
+    }
+    textureStore(candidates_out, stratum, pack_candidate(now));
+}

@@ -1,0 +1,48 @@
+// How many strata of a row have a candidate, by its ratio, and the sums of what their pixels show: 13 strata around each, the first half
+// of what outlier_limit.wgsl goes by.
+//
+// A count is a byte, as 13×13 strata are fewer than 256. The candidates' ratios, from ½ on, fall into 15 classes by powers of 4; the last
+// byte counts the strata that have a sample.
+
+#import asvgf::frame::frame
+#import asvgf::outliers::{LEAST_LEVEL, WINDOW, bound, ratio_to, unpack_candidate, window_start}
+
+@group(0) @binding(1) var candidates: texture_2d<u32>;
+@group(0) @binding(2) var counts_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(3) var sums_out: texture_storage_2d<rgba32uint, write>;
+
+// ⌊½·log₂(2r)⌋, from the bits of r ≥ ½.
+fn class_of(ratio: f32) -> u32 {
+    return min(((bitcast<u32>(ratio) >> 23u) - 126u) >> 1u, 14u);
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let stratum = vec2<i32>(id.xy);
+    var counts = vec4(0u);
+    var sums = vec3(0.0);
+    var pixels = 0u;
+    let start = window_start(stratum.x, frame.strata.x);
+    let end = min(start + WINDOW, i32(frame.strata.x));
+    var expected = 0.0;
+    var seen = 0.0;
+    for (var x = start; x < end; x++) {
+        let c = unpack_candidate(textureLoad(candidates, vec2(x, stratum.y), 0));
+        expected += c.expected;
+        seen += f32(c.seen);
+    }
+    let least = LEAST_LEVEL * expected / max(seen, 1.0);
+    for (var x = start; x < end; x++) {
+        let place = vec2(x, stratum.y);
+        let c = unpack_candidate(textureLoad(candidates, place, 0));
+        let ratio = ratio_to(bound(max(c.expected / f32(max(c.seen, 1u)), least), f32(c.length)), c.brightest);
+        let class_number = class_of(ratio);
+        let one = select(0u, 1u << (8u * (class_number & 3u)), ratio >= 0.5);
+        counts += select(vec4(0u), vec4(one), vec4(class_number >> 2u) == vec4(0u, 1u, 2u, 3u));
+        counts.w += select(0u, 1u << 24u, c.seen > 0u);
+        sums += vec3(c.implied, c.ordinary, c.expected);
+        pixels += c.lit | (c.candidates << 16u);
+    }
+    textureStore(counts_out, stratum, counts);
+    textureStore(sums_out, stratum, vec4(bitcast<vec3<u32>>(sums), pixels));
+}

@@ -1,0 +1,406 @@
+//! Outliers: candidates, the limit that those around set, and how far a sample is believed.
+
+use super::bench::{Bench, SIZES, Texel};
+use super::codec::{assert_close, depth, float, luminance, unpack_rgb, word};
+use super::last_frame::Given;
+use super::random::Random;
+use crate::Settings;
+use crate::passes::{outlier_candidates, outlier_counts, outlier_limit};
+use crate::plan::Feature;
+
+const MOST_RATIO: f64 = 1e9;
+const LEAST_LEVEL: f64 = 0.25;
+
+/// What a stratum's record says.
+#[derive(Clone, Copy, Debug, Default)]
+struct Candidate {
+    brightest: f64,
+    implied: f64,
+    ordinary: f64,
+    expected: f64,
+    place: u32,
+    sightings: u32,
+    seen: u32,
+    lit: u32,
+    candidates: u32,
+    length: f64,
+}
+
+impl Candidate {
+    fn pack(self) -> Texel {
+        let counts = self.place | self.sightings << 4 | self.seen << 7 | self.lit << 11 | self.candidates << 15;
+        let brief = |x: f64| (word(x) + 0x7fff) >> 16;
+        [
+            word(self.brightest),
+            word(self.implied),
+            counts | (self.length as u32) << 19,
+            brief(self.ordinary) | brief(self.expected) << 16,
+        ]
+    }
+
+    fn unpack(t: Texel) -> Self {
+        let field = |shift: u32, bits: u32| t[2] >> shift & ((1 << bits) - 1);
+        Self {
+            brightest: float(t[0]),
+            implied: float(t[1]),
+            ordinary: float(t[3] << 16),
+            expected: float(t[3] & 0xffff_0000),
+            place: field(0, 4),
+            sightings: field(4, 3),
+            seen: field(7, 4),
+            lit: field(11, 4),
+            candidates: field(15, 4),
+            length: f64::from(t[2] >> 19),
+        }
+    }
+}
+
+/// What is believed in a stratum.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Limit {
+    pub(super) ratio: f64,
+    pub(super) level: f64,
+    implied: f64,
+    expected: f64,
+    pub(super) sightings: u32,
+}
+
+impl Limit {
+    fn unpack(t: Texel) -> Self {
+        Self {
+            ratio: float(t[0]),
+            level: float(t[1]),
+            implied: float(t[2]),
+            expected: float(t[3] << 16),
+            sightings: t[3] >> 16,
+        }
+    }
+}
+
+/// B = limit·level·max(1, n/64).
+pub(super) fn bound(settings: &Settings, level: f64, length: f64) -> f64 {
+    f64::from(settings.filter.outlier_limit) * level * (length / 64.0).max(1.0)
+}
+
+/// l/B.
+pub(super) fn ratio_to(bound: f64, l: f64) -> f64 {
+    if l > 0.0 { (l / bound.max(l / MOST_RATIO)).min(MOST_RATIO) } else { 0.0 }
+}
+
+/// How far a sample is believed: its weight, what its luminance is brought down by, and whether it was seen so often that the history
+/// is wrong.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Belief {
+    pub(super) weight: f64,
+    pub(super) scale: f64,
+    pub(super) confirmed: bool,
+    pub(super) around: f64,
+}
+
+impl Given {
+    /// `level` and `length` are those of the history, 0 where there is none. Notes where a threshold is near.
+    pub(super) fn belief(
+        &self,
+        [x, y]: [i32; 2],
+        l: f64,
+        [level, length, lambda]: [f64; 3],
+        unsure: &mut bool,
+    ) -> Belief {
+        let stratum = self.bench.stratum(x / 3, y / 3).unwrap();
+        let limit = Limit::unpack(self.limit[stratum]);
+        let candidate = Candidate::unpack(self.candidates[stratum]);
+        let known = level.max(LEAST_LEVEL * limit.expected).max(lambda * limit.level);
+        let base = if length > 0.0 { known } else { limit.level };
+        let ratio = ratio_to(bound(&self.bench.settings, base, length), l);
+        *unsure |= (ratio / limit.ratio - 1.0).abs() < 1e-2;
+        let over = ratio > limit.ratio;
+        let here = candidate.place as i32 == y % 3 * 3 + x % 3 + 1;
+        let enough = candidate.sightings == limit.sightings || over && candidate.sightings > limit.sightings;
+        let confirmed = enough && here;
+        let scale = if over && !confirmed { limit.ratio / ratio } else { 1.0 };
+        Belief { weight: scale * scale, scale, confirmed, around: limit.level }
+    }
+}
+
+/// Records as a frame may leave them.
+pub(super) fn candidates(bench: &Bench, random: &mut Random) -> Vec<Texel> {
+    let [across, down] = bench.size.map(|s| s.div_ceil(3));
+    (0..across * down)
+        .map(|_| {
+            let mut below = |n: u32| random.below(n as usize) as u32;
+            let (seen, place) = (below(10), below(10));
+            let record = Candidate {
+                place,
+                sightings: if place == 0 { 0 } else { 1 + below(7) },
+                seen,
+                lit: below(seen + 1),
+                candidates: below(seen + 1),
+                length: f64::from(below(200)),
+                ..Default::default()
+            };
+            let mut some = |none: usize| match random.below(none) {
+                0 => 0.0,
+                _ => 10_f64.powf(random.between(-3.0, 3.0)),
+            };
+            let record =
+                Candidate { brightest: some(3), implied: some(8), ordinary: some(8), expected: some(8), ..record };
+            Candidate::unpack(record.pack()).pack()
+        })
+        .collect()
+}
+
+/// Limits as a frame may leave them.
+pub(super) fn limits(bench: &Bench, random: &mut Random) -> Vec<Texel> {
+    let [across, down] = bench.size.map(|s| s.div_ceil(3));
+    (0..across * down)
+        .map(|_| {
+            let ratio = [1.0, 1.0, 8.0, 3e38][random.below(4)];
+            let level = [0.0, 1e-3, 0.02][random.below(3)];
+            let sightings = if random.below(2) == 0 { 3 } else { 6 };
+            [word(ratio), word(level), word(random.unit()), word(0.01 * random.unit()) >> 16 | sightings << 16]
+        })
+        .collect()
+}
+
+/// A stratum's record as the formulas have it; the second says where a threshold was near.
+fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -> (Candidate, bool) {
+    let bench = &given.bench;
+    let mut unsure = false;
+    let mut now = Candidate::default();
+    let mut last_stratum = None;
+    let mut farthest = 0.0;
+    let mut implied = 0.0;
+    let mut length = 0.0;
+    let mut carried = (0, 0);
+    // Samples without a history.
+    let mut fresh: Vec<(f64, u32, u32)> = Vec::new();
+    for at in [4, 5, 6, 7, 8, 0, 1, 2, 3] {
+        let (x, y) = (sx * 3 + at % 3, sy * 3 + at / 3);
+        let Some(i) = bench.at(x, y).filter(|&i| depth(given.guide[i]) > 0.0) else { continue };
+        let own = given.samples[bench.stratum(sx, sy).unwrap()][0] as i32 == at + 1;
+        let Some(sample) = given.sample(i) else { continue };
+        let l = luminance(sample);
+        let m = if given.has(Feature::Still) { [0.0; 3] } else { given.motion[i] };
+        let was = [f64::from(x) + 0.5 + m[0], f64::from(y) + 0.5 + m[1]];
+        unsure |= was.iter().any(|p| (p - p.round()).abs() < 1e-4);
+        let tap = was.map(|p| p.floor() as i32);
+        let q = bench.continued.then(|| bench.at(tap[0], tap[1])).flatten();
+        let n = q.map_or(0.0, |q| given.history[q].length);
+        let there = q.map(|_| bench.stratum(tap[0] / 3, tap[1] / 3).unwrap());
+        let last_one = there.map(|there| Candidate::unpack(before[there]));
+        let was_one = last_one.filter(|last| last.place as i32 == tap[1] % 3 * 3 + tap[0] % 3 + 1);
+        if given.has(Feature::InPlace) && own {
+            carried = was_one.map_or(carried, |last| (at as u32 + 1, last.sightings));
+            continue;
+        }
+        now.seen += 1;
+        if let (None, Some(there)) = (last_stratum, there) {
+            last_stratum = Some(there);
+            length = n;
+            now.length = n.floor();
+        }
+        let sightings = was_one.map_or(0, |last| {
+            unsure |= (2.0 * l / last.brightest - 1.0).abs() < 1e-3;
+            if 2.0 * l >= last.brightest { last.sightings } else { 0 }
+        });
+        let place = at as u32 + 1;
+        let Some(q) = q.filter(|_| n > 0.0) else {
+            fresh.push((l, place, sightings));
+            continue;
+        };
+        let mut level = luminance(given.history[q].color);
+        if given.has(Feature::Steady) {
+            level = level.max(luminance(unpack_rgb([given.output[q][0], given.output[q][1]])));
+        }
+        let around = Limit::unpack(limits[there.unwrap()]).expected;
+        let ratio = ratio_to(bound(&bench.settings, level.max(LEAST_LEVEL * around), n), l);
+        unsure |= (ratio - 0.5).abs() < 1e-3 || (ratio / farthest - 1.0_f64).abs() < 1e-3;
+        let candidate = ratio > 0.5 || (1..7).contains(&sightings) && l > 0.0;
+        now.expected += level;
+        if candidate {
+            now.candidates += 1;
+            implied += l;
+            if ratio > farthest {
+                farthest = ratio;
+                (now.brightest, now.place, now.sightings) = (l, place, (sightings + 1).min(7));
+            }
+        } else {
+            now.ordinary += l;
+            now.lit += u32::from(l > 0.0);
+        }
+    }
+    let sum: f64 = fresh.iter().map(|f| f.0).sum();
+    let largest = fresh.iter().fold((0.0, 0, 0), |a, &b| if b.0 > a.0 { b } else { a });
+    let others = (sum - largest.0) / (fresh.len() as f64 - 1.0).max(1.0);
+    let ratio = ratio_to(bound(&bench.settings, others, 1.0), largest.0);
+    let candidate = fresh.len() > 1 && ratio > 0.5;
+    // Sums of f32 cancel.
+    unsure |= !fresh.is_empty() && ((ratio - 0.5).abs() < 1e-3 || others < 1e-5 * sum && others > 0.0);
+    unsure |= fresh.len() > 1 && (ratio / farthest - 1.0).abs() < 1e-3;
+    let rest = sum - if candidate { largest.0 } else { 0.0 };
+    if candidate {
+        now.candidates += 1;
+        implied += largest.0;
+        if ratio > farthest {
+            (now.brightest, now.place, now.sightings) = (largest.0, largest.1, (largest.2 + 1).min(7));
+        }
+    }
+    now.ordinary += rest;
+    now.expected += rest;
+    if others > 0.0 {
+        now.lit += fresh.len() as u32 - u32::from(candidate);
+    }
+    if now.place == 0 {
+        (now.place, now.sightings) = carried;
+    }
+    now.implied = implied;
+    if let Some(there) = last_stratum {
+        let last = Candidate::unpack(before[there]);
+        now.brightest = now.brightest.max(0.6 * last.brightest);
+        now.implied = last.implied + (implied - last.implied) / (length + 1.0_f64).min(16.0);
+        let dark = 1e-10 * Limit::unpack(limits[there]).implied * f64::from(now.seen);
+        unsure |= (now.ordinary / dark - 1.0).abs() < 1e-2;
+        if now.ordinary <= dark {
+            now.lit = 0;
+        }
+    }
+    (now, unsure)
+}
+
+#[test]
+fn candidates_are_what_is_far_above_its_level() {
+    use Feature::*;
+    let kinds: [&[Feature]; 5] =
+        [&[], &[Steady], &[Still, Steady, MissingSamples], &[Gradient, InPlace, Steady], &[MissingSamples, Steady]];
+    let (mut compared, mut found, mut unsure) = (0, 0, 0);
+    for (size, features) in SIZES.into_iter().flat_map(|s| kinds.map(|k| (s, k))) {
+        for (moving, continued) in [(false, true), (true, true), (true, false)] {
+            let mut given = Given::new(size, features, Settings::adaptive(), moving);
+            given.bench.continued = continued;
+            let mut random = Random(7);
+            let before = candidates(&given.bench, &mut random);
+            let limit = limits(&given.bench, &mut random);
+            let step = outlier_candidates::step(given.features);
+            let mut inputs = given.inputs(&step);
+            inputs.push(("candidates_previous", before.clone()));
+            inputs.push(("limit_previous", limit.clone()));
+            let written = &given.bench.run(&step, &inputs)["candidates_out"];
+            let [across, down] = size.map(|s| s.div_ceil(3) as i32);
+            for (sx, sy) in (0..down).flat_map(|sy| (0..across).map(move |sx| (sx, sy))) {
+                let (expected, near) = twin(&given, [sx, sy], &before, &limit);
+                compared += 1;
+                if near {
+                    unsure += 1;
+                    continue;
+                }
+                found += usize::from(expected.place > 0);
+                let actual = Candidate::unpack(written[given.bench.stratum(sx, sy).unwrap()]);
+                let what = format!("{size:?} ({sx}, {sy}) {features:?}, moving {moving}, continued {continued}");
+                let counts = |c: Candidate| [c.place, c.sightings, c.seen, c.lit, c.candidates, c.length as u32];
+                assert_eq!(counts(actual), counts(expected), "{what}: {expected:?}");
+                let sums = |c: Candidate| [c.brightest, c.implied, c.ordinary, c.expected];
+                for (a, e) in sums(actual).into_iter().zip(sums(expected)) {
+                    assert_close(a, e, 6e-3 * e + 1e-2 * 1e-5, || format!("{what}: {expected:?}"));
+                }
+            }
+        }
+    }
+    assert!(found * 8 > compared && unsure * 5 < compared, "{found} of {compared}, {unsure} unsure: no grip");
+}
+
+/// The limit of a stratum, from all records of its window at once; the second says where a threshold was near.
+fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) {
+    let extent = bench.size.map(|s| s.div_ceil(3) as i32);
+    let range = |at: i32, extent: i32| {
+        let start = (at - 6).clamp(0, (extent - 13).max(0));
+        start..(start + 13).min(extent)
+    };
+    let (columns, rows) = (range(sx, extent[0]), range(sy, extent[1]));
+    let mut classes = Vec::new();
+    let (mut sums, mut strata, mut lit, mut few) = ([0.0; 3], 0.0, 0.0, 0.0);
+    for y in rows {
+        let row: Vec<_> = columns.clone().map(|x| Candidate::unpack(records[bench.stratum(x, y).unwrap()])).collect();
+        let seen: u32 = row.iter().map(|c| c.seen).sum();
+        let least = LEAST_LEVEL * row.iter().map(|c| c.expected).sum::<f64>() / f64::from(seen.max(1));
+        for c in row {
+            let level = (c.expected / f64::from(c.seen.max(1))).max(least);
+            let ratio = ratio_to(bound(&bench.settings, level, c.length), c.brightest);
+            if ratio >= 0.5 {
+                classes.push(((2.0 * ratio).log2() / 2.0).min(14.99));
+            }
+            strata += f64::from(u32::from(c.seen > 0));
+            for (sum, x) in sums.iter_mut().zip([c.implied, c.ordinary, c.expected]) {
+                *sum += x;
+            }
+            lit += f64::from(c.lit);
+            few += f64::from(c.candidates);
+        }
+    }
+    let here = Candidate::unpack(records[bench.stratum(sx, sy).unwrap()]);
+    let most = 1.2 * sums[1].max(sums[2]);
+    let doubtful = sums[0] > most && lit > 0.15 * 9.0 * strata && few < 0.2 * lit;
+    let asked = ((6.0 + 4.0 * (here.length / 3.0).min(1.0)) * (strata / 169.0_f64).sqrt()).ceil().max(3.0);
+    let mut unsure = (sums[0] / most - 1.0).abs() < 1e-3 || (lit / (1.35 * strata) - 1.0).abs() < 1e-6;
+    unsure |= (few / (0.2 * lit) - 1.0).abs() < 1e-6;
+    // One on the border of two classes may be in either.
+    unsure |= classes.iter().any(|c| (c - c.round()).abs() < 1e-4);
+    let believed = (0..15).rev().find(|&k| classes.iter().filter(|c| **c >= f64::from(k)).count() as f64 >= asked);
+    let ratio = match believed.filter(|_| !doubtful) {
+        None => 1.0,
+        Some(13 | 14) => 3e38,
+        Some(k) => 8.0 * 4_f64.powi(k),
+    };
+    let pixels = (9.0 * strata).max(1.0);
+    let [implied, level, expected] = [sums[0], sums[1], sums[2]].map(|s| s / pixels);
+    (Limit { ratio, level, implied, expected, sightings: if doubtful { 6 } else { 3 } }, unsure)
+}
+
+#[test]
+fn a_limit_is_what_the_window_has_seen() {
+    let (mut believed, mut doubted, mut compared, mut unsure) = (0, 0, 0, 0);
+    for (size, seed) in [[1, 1], [7, 5], [33, 17], [60, 44], [130, 9]].into_iter().flat_map(|s| [(s, 1), (s, 2)]) {
+        let bench = Bench::new(size, Settings::adaptive());
+        let records: Vec<Texel> = candidates(&bench, &mut Random(seed))
+            .into_iter()
+            .map(|texel| {
+                // Hardly any, or many.
+                let mut c = Candidate::unpack(texel);
+                if seed == 1 {
+                    (c.candidates, c.lit) = (0, c.seen);
+                    c.implied *= 100.0;
+                } else {
+                    c.brightest *= 100.0;
+                }
+                c.pack()
+            })
+            .collect();
+        let input = || ("candidates", records.clone());
+        let mut written = bench.run(&outlier_counts::step(), &[input()]);
+        let inputs = [
+            input(),
+            ("candidate_counts", written.remove("counts_out").unwrap()),
+            ("sums", written.remove("sums_out").unwrap()),
+        ];
+        let limits = &bench.run(&outlier_limit::step(), &inputs)["limit_out"];
+        let [across, down] = size.map(|s| s.div_ceil(3) as i32);
+        for (sx, sy) in (0..down).flat_map(|sy| (0..across).map(move |sx| (sx, sy))) {
+            let (expected, near) = limit(&bench, &records, [sx, sy]);
+            compared += 1;
+            if near {
+                unsure += 1;
+                continue;
+            }
+            let actual = Limit::unpack(limits[bench.stratum(sx, sy).unwrap()]);
+            let what = || format!("{size:?} ({sx}, {sy}), seed {seed}: {expected:?}");
+            assert_eq!(actual.sightings, expected.sightings, "{}", what());
+            assert_close(actual.ratio, expected.ratio, 1e-6 * expected.ratio, what);
+            believed += usize::from(expected.ratio > 1.0);
+            doubted += usize::from(expected.sightings == 6);
+            let sums = |l: Limit| [l.level, l.implied, l.expected];
+            for (a, e) in sums(actual).into_iter().zip(sums(expected)) {
+                assert_close(a, e, 6e-3 * e, what);
+            }
+        }
+    }
+    assert!(believed > 50 && doubted > 50 && unsure * 5 < compared, "{believed} {doubted} {unsure} of {compared}");
+}
