@@ -1,6 +1,6 @@
 // How far above its level a sample may be in each stratum, by what 13×13 strata around have seen.
 //
-// If k strata have a candidate in one class of ratios or above, samples up to the class after that are light: k is 6, and 10 once
+// If k strata have a candidate in one class of ratios or above, samples up to the end of the next class are light: k is 6, and 10 once
 // there is a history. Unless light is not sparse there: if the candidates would make a surface brighter by more than a fifth that is
 // lit anyway, and are few beside the samples that say so, none of them is believed.
 
@@ -40,7 +40,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let doubtful = sum.x > IMPLIED * max(sum.y, sum.z) && lit > LIT * 9.0 * strata && few < FEW * lit;
     let asked = max(3.0, ceil((6.0 + 4.0 * min(f32(here.length) / 3.0, 1.0)) * sqrt(strata / f32(WINDOW * WINDOW))));
     var above = 0.0;
-    var ratio = 1.0;
+    // Where nothing was seen, nothing speaks against a sample.
+    var ratio = select(1.0, 3e38, strata == 0.0);
     // From the brightest class down.
     for (var k = 14; k >= 0; k--) {
         let word = count[k >> 2u];

@@ -3,6 +3,7 @@
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, float, luminance, pack_rgb, unpack_normal, unpack_rgb, word};
 use super::last_frame::Given;
+use super::outliers;
 use super::plane::{V, dot, sub};
 use super::random::Random;
 use crate::passes::{gradient_means, gradient_means_filter, gradient_of_means};
@@ -95,6 +96,15 @@ fn means(given: &Given, sx: i32, sy: i32) -> (Option<usize>, Means, bool) {
         let (history, doubtful) = given.bilinear_history(i, x, y);
         unsure |= doubtful;
         let Some((before, variance, length)) = history else { continue };
+        if given.has(Feature::Outliers) {
+            let limit = given.limit[bench.stratum(sx, sy).unwrap()];
+            let history = [luminance(before), length];
+            let (believed, near) = outliers::believed(&bench.settings, limit, history, luminance(sample), 1.0);
+            unsure |= near;
+            if !believed {
+                continue;
+            }
+        }
         reference.get_or_insert((i, place));
         let n = length.clamp(1.0, bench.settings.filter.max_history.into());
         let v = sample_variance(variance, luminance(before), n);
@@ -109,7 +119,8 @@ fn means(given: &Given, sx: i32, sy: i32) -> (Option<usize>, Means, bool) {
 #[test]
 fn strata_compare_new_samples_with_their_histories() {
     let (mut compared, mut unsure_ones, mut empty) = (0, 0, 0);
-    for features in [vec![], vec![Feature::Objects, Feature::MissingSamples]] {
+    let kinds = [vec![], vec![Feature::Objects, Feature::MissingSamples], vec![Feature::Outliers]];
+    for features in kinds {
         for (size, moving) in SIZES.into_iter().flat_map(|size| [(size, false), (size, true)]) {
             let given = Given::new(size, &features, Settings::adaptive(), moving);
             let step = gradient_means::step(Features::of(&features));

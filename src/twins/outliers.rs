@@ -87,6 +87,16 @@ pub(super) fn ratio_to(bound: f64, l: f64) -> f64 {
     if l > 0.0 { (l / bound.max(l / MOST_RATIO)).min(MOST_RATIO) } else { 0.0 }
 }
 
+/// Whether light of this luminance is believed in a stratum beside a history, as far as pairs and means go: `leeway` times as much as a
+/// sample; the second says where that is a matter of rounding.
+pub(super) fn believed(settings: &Settings, limit: Texel, history: [f64; 2], l: f64, leeway: f64) -> (bool, bool) {
+    let limit = Limit::unpack(limit);
+    let [level, length] = history;
+    let most = leeway * bound(settings, level.max(limit.expected).max(limit.level), length);
+    let ratio = ratio_to(most, l);
+    (ratio <= limit.ratio, (ratio / limit.ratio - 1.0).abs() < 1e-2)
+}
+
 /// How far a sample is believed: its weight, what its luminance is brought down by, and whether it was seen so often that the history
 /// is wrong.
 #[derive(Clone, Copy, Debug)]
@@ -346,6 +356,8 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
     unsure |= classes.iter().any(|c| (c - c.round()).abs() < 1e-4);
     let believed = (0..15).rev().find(|&k| classes.iter().filter(|c| **c >= f64::from(k)).count() as f64 >= asked);
     let ratio = match believed.filter(|_| !doubtful) {
+        // Nothing speaks against a sample where nothing was seen.
+        _ if strata == 0.0 => 3e38,
         None => 1.0,
         Some(13 | 14) => 3e38,
         Some(k) => 8.0 * 4_f64.powi(k),

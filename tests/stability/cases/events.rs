@@ -327,7 +327,8 @@ fn bias_of_settings() -> Worst {
 fn wrap() -> Worst {
     let mut worst = Worst::default();
     for gradient in [Gradient::Reshade, Gradient::BlinnPhong] {
-        let filter = FilterSettings { gradient, ..Default::default() };
+        // A pixel that turns out to be a highlight drops its history: here nothing may.
+        let filter = FilterSettings { gradient, outlier_limit: 0.0, ..Default::default() };
         let settings = Settings { filter, ..Settings::adaptive() };
         let mut stage = Stage::built_in("cornell", "static", [31, 17], settings);
         let mut before: Vec<Rgb> = Vec::new();
