@@ -72,7 +72,7 @@ impl Step {
     pub(crate) fn on_cpu(mut self) -> Self {
         let reads = match self.pass {
             Pass::GradientPairsFilter | Pass::GradientMeansFilter | Pass::GradientFilter => true,
-            Pass::Atrous | Pass::Steady => true,
+            Pass::Atrous | Pass::Steady | Pass::OutlierCandidates => true,
             // Four storage textures are all that is sure to be had: it reads one in a still image, else two.
             Pass::Temporal => {
                 let has = |feature| u32::from(self.features.has(feature));

@@ -121,6 +121,29 @@ fn bad_pairs_are_left_out_and_counted() {
     assert!(super::view(&mut denoiser, View::Lambda).iter().all(|l| l[0] == 0.0), "both values are equal");
 }
 
+/// Four pixels that are a million times too bright, in frames that have a history.
+#[test]
+fn outliers_are_counted_shown_and_leave_no_trace() {
+    let frames = recorded(Settings::adaptive());
+    let (mut spoilt, mut clean) = (counting(Gradient::Statistics), counting(Gradient::Statistics));
+    // Before the lamp goes out.
+    for (number, frame) in frames[..6].iter().enumerate() {
+        let mut hit = frame.clone();
+        let seen = (0..hit.light.len()).filter(|&i| hit.depth[i] > 0.0 && number >= 2);
+        let chosen: Vec<usize> = seen.skip(40 + 17 * number).step_by(151).take(4).collect();
+        chosen.iter().for_each(|&i| hit.light[i] = [1e6; 3]);
+        let images = [(&mut spoilt, &hit), (&mut clean, frame)].map(|(denoiser, frame)| denoise(denoiser, frame));
+        assert_eq!(counts(&mut spoilt).outliers, chosen.len() as u32 + counts(&mut clean).outliers, "frame {number}");
+        let [shown, others] = [&mut spoilt, &mut clean].map(|denoiser| super::view(denoiser, View::Outliers));
+        for i in 0..shown.len() {
+            let expected = if chosen.contains(&i) { 1.0 } else { others[i][0] };
+            assert_eq!(shown[i][0], expected, "frame {number}, pixel {i}");
+        }
+        let [a, b] = images.map(|image| crate::common::statistics::mean(&image));
+        assert!((a / b - 1.0).abs() < 0.01, "frame {number}: {a}, and {b} without");
+    }
+}
+
 #[test]
 fn without_diagnostics_nothing_is_counted() {
     let frames = recorded(Settings::adaptive());
