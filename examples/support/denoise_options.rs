@@ -48,13 +48,15 @@ Denoiser
   --alpha KIND          adaptive, or constant:A with 0…1 as the weight of each new
                         frame (constant alone: 0.2)                         [adaptive]
   --iterations N        spatial filter iterations, 0…8          [default 4+1, classic 5]
+  --outlier-limit X     how many times as bright as its surroundings a sample may be, if
+                        not several around are, 0…10⁶; 0: any    [default 40, classic 0]
 
 Output
   --out DIR             folder for everything; made if missing
   --outputs LIST        which images, separated by commas                   [denoised]
                         denoised, lambda, history (its length in frames), alpha,
                         gradient, variance, noisy, albedo, normal, depth, motion,
-                        motion-error, non-finite
+                        motion-error, non-finite, outliers
   --format LIST         exr (32-bit floats in R, G, B), png (tone-mapped), or exr,png  [exr]
   --exposure X          factor on radiance in PNG files                            [1]
 
@@ -67,7 +69,7 @@ Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
 
 /// What can be written, and what the files are called.
-const OUTPUTS: [(&str, View); 13] = [
+const OUTPUTS: [(&str, View); 14] = [
     ("denoised", View::Denoised),
     ("lambda", View::Lambda),
     ("history", View::HistoryLength),
@@ -81,6 +83,7 @@ const OUTPUTS: [(&str, View); 13] = [
     ("motion", View::Motion),
     ("motion-error", View::MotionError),
     ("non-finite", View::NonFinite),
+    ("outliers", View::Outliers),
 ];
 
 /// What the command line asks for.
@@ -122,6 +125,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         exposure: 1.0,
     };
     let mut iterations = None;
+    let mut outlier_limit = None;
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
         let name = match argument {
@@ -148,6 +152,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
             }
             "alpha" => options.constant = value()?.alpha()?,
             "iterations" => iterations = Some(value()?.whole(0..=8)?),
+            "outlier-limit" => outlier_limit = Some(value()?.number(0.0..=1e6)?),
             "outputs" => {
                 let known = OUTPUTS.map(|output| (output.0, output));
                 options.outputs = value()?.list(|v| v.one_of(&known))?;
@@ -158,6 +163,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         }
     }
     options.preset.iterations = iterations.unwrap_or(options.preset.iterations);
+    options.preset.outlier_limit = outlier_limit.unwrap_or(options.preset.outlier_limit);
     options.input = input.ok_or_else(|| Usage("IN_DIR is missing: the folder with the frames".into()))?;
     options.out = out.ok_or_else(|| Usage("--out OUT_DIR is missing: the folder to write to".into()))?;
     Ok(Request::Denoise(Box::new(options)))

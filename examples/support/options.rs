@@ -53,13 +53,16 @@ Denoiser
                         blinn-phong (lights without shadows), off (the same as a
                         constant alpha)                                      [reshade]
   --iterations N        spatial filter iterations, 0…8          [default 4+1, classic 5]
+  --outlier-limit X     how many times as bright as its surroundings a sample may be, if
+                        not several around are, 0…10⁶; 0: any    [default 40, classic 0]
 
 Output
   --out DIR             folder for everything; made if missing                   [out]
   --outputs LIST        which images, separated by commas, or all           [denoised]
                         denoised, noisy, albedo, normal, depth, triangle-id, motion,
                         gradient, lambda, alpha, history-length, variance, non-finite,
-                        rays, motion-error, emission, object, pair-now, pair-before
+                        rays, motion-error, emission, object, pair-now, pair-before,
+                        outliers
   --format LIST         png (tone-mapped), exr (numbers: linear radiance and the like
                         as 32-bit floats in R, G, B), or both as png,exr         [png]
   --exposure X          factor on radiance in PNG files                            [1]
@@ -210,7 +213,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
 }
 
 /// The options whose value is text that [`Value::set`] understands.
-const VALUED: [&str; 19] = [
+const VALUED: [&str; 20] = [
     "alpha",
     "animation",
     "bounces",
@@ -221,6 +224,7 @@ const VALUED: [&str; 19] = [
     "frames",
     "gradient",
     "iterations",
+    "outlier-limit",
     "outputs",
     "preset",
     "reference",
@@ -240,6 +244,7 @@ struct Filter {
     adaptive: bool,
     gradient: Option<Gradient>,
     iterations: Option<u32>,
+    outlier_limit: Option<f32>,
     every_output: bool,
 }
 
@@ -252,6 +257,9 @@ impl Filter {
         }
         if let Some(iterations) = self.iterations {
             settings.filter.iterations = iterations;
+        }
+        if let Some(limit) = self.outlier_limit {
+            settings.filter.outlier_limit = limit;
         }
         match (self.constant, self.gradient) {
             (Some(_), Some(Gradient::Reshade | Gradient::Statistics | Gradient::BlinnPhong)) => {
@@ -301,6 +309,7 @@ impl Value {
             "bounces" => tracer.bounces = self.whole(0..=1024)?,
             "seed" => tracer.seed = self.whole(0..=u32::MAX)?,
             "iterations" => filter.iterations = Some(self.whole(0..=8)?),
+            "outlier-limit" => filter.outlier_limit = Some(self.number(0.0..=1e6)?),
             "reference" => options.reference = Some(self.whole(1..=1_000_000)?),
             "exposure" => options.exposure = Some(self.number(1e-6..=1e6)?),
             "preset" => filter.classic = self.one_of(&[("default", false), ("classic", true)])?,
