@@ -154,19 +154,22 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         now.place = largest_at;
         now.sightings = min(largest_sightings + 1u, MOST_SIGHTINGS);
     }
+    let found = now.place != 0u;
 #ifdef IN_PLACE
     now.sightings = select(now.sightings, carried.y, now.place == 0u);
     now.place = select(now.place, carried.x, now.place == 0u);
 #endif
-    now.length = u32(length);
+    now.length = length;
     now.implied = implied;
     if last_stratum.x >= 0 {
         let last = unpack_candidate(textureLoad(candidates_previous, last_stratum, 0));
         now.brightest = max(now.brightest, KEPT * last.brightest);
+        now.running = last.running;
         now.implied = last.implied + (implied - last.implied) / min(length + 1.0, SLOW);
         // What is far darker than that light is no light to compare it with.
         let dark = 1e-10 * unpack_limit(textureLoad(limit_previous, last_stratum, 0)).implied;
         now.lit = select(0u, now.lit, now.ordinary > dark * f32(now.seen));
     }
+    now.running = select(0u, min(now.running + 1u, MOST_SIGHTINGS), found);
     textureStore(candidates_out, stratum, pack_candidate(now));
 }

@@ -35,7 +35,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var x = start; x < end; x++) {
         let place = vec2(x, stratum.y);
         let c = unpack_candidate(textureLoad(candidates, place, 0));
-        let ratio = ratio_to(bound(max(c.expected / f32(max(c.seen, 1u)), least), f32(c.length)), c.brightest);
+        let ratio = ratio_to(bound(max(c.expected / f32(max(c.seen, 1u)), least), c.length), c.brightest);
         let class_number = class_of(ratio);
         let one = select(0u, 1u << (8u * (class_number & 3u)), ratio >= 0.5);
         counts += select(vec4(0u), vec4(one), vec4(class_number >> 2u) == vec4(0u, 1u, 2u, 3u));

@@ -38,8 +38,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let lit = f32(pixels & 0xffffu);
     let few = f32(pixels >> 16u);
     let doubtful = sum.x > IMPLIED * max(sum.y, sum.z) && lit > LIT * 9.0 * strata && few < FEW * lit;
-    let asked = max(3.0, ceil((6.0 + 4.0 * min(f32(here.length) / 3.0, 1.0)) * sqrt(strata / f32(WINDOW * WINDOW))));
+    let asked = max(3.0, ceil((6.0 + 4.0 * min(here.length / 3.0, 1.0)) * sqrt(strata / f32(WINDOW * WINDOW))));
     var above = 0.0;
+    let sightings = select(3u, 6u, doubtful);
     // Where nothing was seen, nothing speaks against a sample.
     var ratio = select(1.0, 3e38, strata == 0.0);
     // From the brightest class down.
@@ -51,6 +52,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         ratio = max(ratio, select(0.0, reach, above >= asked && !doubtful));
     }
     let pixels_seen = max(9.0 * strata, 1.0);
-    let limit = Limit(ratio, sum.y / pixels_seen, sum.x / pixels_seen, sum.z / pixels_seen, select(3u, 6u, doubtful));
+    let limit = Limit(ratio, sum.y / pixels_seen, sum.x / pixels_seen, sum.z / pixels_seen, sightings);
     textureStore(limit_out, stratum, pack_limit(limit));
 }

@@ -141,8 +141,9 @@ fn belief_in(pixel: vec2<u32>, l: f32, level: f32, length: f32, lambda: f32) -> 
     let base = select(known, believed.level, length <= 0.0);
     let ratio = ratio_to(bound(base, length), l);
     let over = ratio > believed.ratio;
-    let enough = candidate.sightings == believed.sightings || over && candidate.sightings > believed.sightings;
-    let confirmed = enough && candidate.place == within.y * 3u + within.x + 1u;
+    // Outliers are rare: a pixel that is seen so many times running, or a stratum in which some pixel is, is lit.
+    let here = candidate.place == within.y * 3u + within.x + 1u;
+    let confirmed = (here && candidate.sightings == believed.sightings) || (over && candidate.running >= believed.sightings);
     let scale = select(1.0, believed.ratio / max(ratio, 1e-9), over && !confirmed);
     return Belief(scale * scale, scale, confirmed, believed.level);
 }

@@ -25,12 +25,14 @@ struct Candidate {
     // Its pixel in the stratum, 1…9 row by row, 0 where this frame has none, and the frames running that its surface was one.
     place: u32,
     sightings: u32,
+    // The frames running in which the stratum had one, whichever.
+    running: u32,
     // Pixels with a sample, those of them that are lit and no candidates, and candidates.
     seen: u32,
     lit: u32,
     candidates: u32,
-    // History length.
-    length: u32,
+    // History length, to a 32nd.
+    length: f32,
 }
 
 // A f32 with 8 bits of mantissa in 16 bits.
@@ -39,11 +41,12 @@ fn pack_brief(x: f32) -> u32 {
 }
 
 fn pack_candidate(c: Candidate) -> vec4<u32> {
-    let counts = c.place | (c.sightings << 4u) | (c.seen << 7u) | (c.lit << 11u) | (c.candidates << 15u);
+    let counts = c.place | (c.sightings << 4u) | (c.seen << 7u) | (c.lit << 11u) | (c.candidates << 15u) | (c.running << 19u);
+    let length = select(0u, ((bitcast<u32>(clamp(c.length, 1.0, 32768.0)) - 0x3f800000u) >> 18u) + 1u, c.length > 0.0);
     return vec4(
         bitcast<u32>(c.brightest),
         bitcast<u32>(c.implied),
-        counts | (min(c.length, 8191u) << 19u),
+        counts | (length << 22u),
         pack_brief(c.ordinary) | (pack_brief(c.expected) << 16u),
     );
 }
@@ -56,10 +59,11 @@ fn unpack_candidate(bits: vec4<u32>) -> Candidate {
         bitcast<f32>(bits.w & 0xffff0000u),
         bits.z & 0xfu,
         (bits.z >> 4u) & 0x7u,
+        (bits.z >> 19u) & 0x7u,
         (bits.z >> 7u) & 0xfu,
         (bits.z >> 11u) & 0xfu,
         (bits.z >> 15u) & 0xfu,
-        bits.z >> 19u,
+        select(0.0, bitcast<f32>((((bits.z >> 22u) - 1u) << 18u) + 0x3f800000u), (bits.z >> 22u) > 0u),
     );
 }
 

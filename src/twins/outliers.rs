@@ -20,6 +20,7 @@ struct Candidate {
     expected: f64,
     place: u32,
     sightings: u32,
+    running: u32,
     seen: u32,
     lit: u32,
     candidates: u32,
@@ -28,12 +29,19 @@ struct Candidate {
 
 impl Candidate {
     fn pack(self) -> Texel {
-        let counts = self.place | self.sightings << 4 | self.seen << 7 | self.lit << 11 | self.candidates << 15;
+        let counts = self.place
+            | self.sightings << 4
+            | self.seen << 7
+            | self.lit << 11
+            | self.candidates << 15
+            | self.running << 19;
+        let length =
+            if self.length > 0.0 { ((word(self.length.clamp(1.0, 32768.0)) - 0x3f80_0000) >> 18) + 1 } else { 0 };
         let brief = |x: f64| (word(x) + 0x7fff) >> 16;
         [
             word(self.brightest),
             word(self.implied),
-            counts | (self.length as u32) << 19,
+            counts | length << 22,
             brief(self.ordinary) | brief(self.expected) << 16,
         ]
     }
@@ -50,7 +58,11 @@ impl Candidate {
             seen: field(7, 4),
             lit: field(11, 4),
             candidates: field(15, 4),
-            length: f64::from(t[2] >> 19),
+            running: field(19, 3),
+            length: match t[2] >> 22 {
+                0 => 0.0,
+                code => float(((code - 1) << 18) + 0x3f80_0000),
+            },
         }
     }
 }
@@ -125,8 +137,7 @@ impl Given {
         *unsure |= (ratio / limit.ratio - 1.0).abs() < 1e-2;
         let over = ratio > limit.ratio;
         let here = candidate.place as i32 == y % 3 * 3 + x % 3 + 1;
-        let enough = candidate.sightings == limit.sightings || over && candidate.sightings > limit.sightings;
-        let confirmed = enough && here;
+        let confirmed = here && candidate.sightings == limit.sightings || over && candidate.running >= limit.sightings;
         let scale = if over && !confirmed { limit.ratio / ratio } else { 1.0 };
         Belief { weight: scale * scale, scale, confirmed, around: limit.level }
     }
@@ -145,6 +156,7 @@ pub(super) fn candidates(bench: &Bench, random: &mut Random) -> Vec<Texel> {
                 seen,
                 lit: below(seen + 1),
                 candidates: below(seen + 1),
+                running: below(8),
                 length: f64::from(below(200)),
                 ..Default::default()
             };
@@ -207,7 +219,6 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
         if let (None, Some(there)) = (last_stratum, there) {
             last_stratum = Some(there);
             length = n;
-            now.length = n.floor();
         }
         let sightings = was_one.map_or(0, |last| {
             unsure |= (2.0 * l / last.brightest - 1.0).abs() < 1e-3;
@@ -260,13 +271,16 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
     if others > 0.0 {
         now.lit += fresh.len() as u32 - u32::from(candidate);
     }
+    let found = now.place != 0;
     if now.place == 0 {
         (now.place, now.sightings) = carried;
     }
     now.implied = implied;
+    now.length = length;
     if let Some(there) = last_stratum {
         let last = Candidate::unpack(before[there]);
         now.brightest = now.brightest.max(0.6 * last.brightest);
+        now.running = last.running;
         now.implied = last.implied + (implied - last.implied) / (length + 1.0_f64).min(16.0);
         let dark = 1e-10 * Limit::unpack(limits[there]).implied * f64::from(now.seen);
         unsure |= (now.ordinary / dark - 1.0).abs() < 1e-2;
@@ -274,6 +288,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
             now.lit = 0;
         }
     }
+    now.running = if found { (now.running + 1).min(7) } else { 0 };
     (now, unsure)
 }
 
@@ -306,7 +321,8 @@ fn candidates_are_what_is_far_above_its_level() {
                 found += usize::from(expected.place > 0);
                 let actual = Candidate::unpack(written[given.bench.stratum(sx, sy).unwrap()]);
                 let what = format!("{size:?} ({sx}, {sy}) {features:?}, moving {moving}, continued {continued}");
-                let counts = |c: Candidate| [c.place, c.sightings, c.seen, c.lit, c.candidates, c.length as u32];
+                let counts = |c: Candidate| [c.place, c.sightings, c.running, c.seen, c.lit, c.candidates];
+                assert_close(actual.length, expected.length, expected.length / 31.0, || what.clone());
                 assert_eq!(counts(actual), counts(expected), "{what}: {expected:?}");
                 let sums = |c: Candidate| [c.brightest, c.implied, c.ordinary, c.expected];
                 for (a, e) in sums(actual).into_iter().zip(sums(expected)) {
@@ -355,6 +371,7 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
     // One on the border of two classes may be in either.
     unsure |= classes.iter().any(|c| (c - c.round()).abs() < 1e-4);
     let believed = (0..15).rev().find(|&k| classes.iter().filter(|c| **c >= f64::from(k)).count() as f64 >= asked);
+    let sightings = if doubtful { 6 } else { 3 };
     let ratio = match believed.filter(|_| !doubtful) {
         // Nothing speaks against a sample where nothing was seen.
         _ if strata == 0.0 => 3e38,
@@ -364,7 +381,7 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
     };
     let pixels = (9.0 * strata).max(1.0);
     let [implied, level, expected] = [sums[0], sums[1], sums[2]].map(|s| s / pixels);
-    (Limit { ratio, level, implied, expected, sightings: if doubtful { 6 } else { 3 } }, unsure)
+    (Limit { ratio, level, implied, expected, sightings }, unsure)
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::painted::{Painted, Path, Views, adaptive, grey};
 use super::{Breaks, Case, Named, Worst};
 use crate::common::statistics::{Rgb, mean};
-use asvgf::Settings;
+use asvgf::{FilterSettings, Gradient, Settings};
 
 const SIZE: [u32; 2] = [96, 72];
 
@@ -40,6 +40,15 @@ pub const CASES: &[Case] = &[
         ),
     },
     Case {
+        name: "a spot that lights up",
+        varied: "2×2, 3×3, 5×5 pixels; 100, 1000, 10⁵ times the light around, with its noise; with and without pairs",
+        quantity: "part of the image's light that is missing, or too much, beside a run that believes every sample; frames 10 to 17 after",
+        bound: 0.2,
+        origin: "it is believed after three frames, or six where it could be a burst; 2×2 pixels have noise of 10 % then, and each run its own",
+        measure: spots,
+        breaks: Breaks::Known("a spot that stays for less than six frames may not be shown"),
+    },
+    Case {
         name: "an albedo that is noise, and the light with it",
         varied: "0 … 1, 0 … 10, and that with a fifth of zeros, as a metal's that follows reflections; with and without pairs; frames 8 to 23",
         quantity: "how far the mean is off that of the samples, relative",
@@ -53,7 +62,8 @@ pub const CASES: &[Case] = &[
 ];
 
 fn settings() -> [Named<Settings>; 2] {
-    [("pairs", adaptive()), ("no pairs", Settings::adaptive())]
+    let statistics = FilterSettings { gradient: Gradient::Statistics, ..Default::default() };
+    [("pairs", adaptive()), ("no pairs", Settings { filter: statistics, ..Settings::adaptive() })]
 }
 
 fn noisy(path: &Path) -> Rgb {
@@ -144,6 +154,27 @@ fn highlights() -> Worst {
         let image = host.frames(from + 9, &light);
         let shown = f64::from(image[(place[1] * SIZE[0] + place[0]) as usize][0]);
         worst.add((shown / times - 1.0).abs(), || format!("× {times:e}, from frame {from} on: {shown}"));
+    }
+    worst
+}
+
+fn spots() -> Worst {
+    let mut worst = Worst::default();
+    for (name, settings) in settings() {
+        for (side, times) in [2, 3, 5].into_iter().flat_map(|side| [1e2, 1e3, 1e5].map(|times| (side, times))) {
+            let [limited, believed] = [settings.filter.outlier_limit, 0.0].map(|outlier_limit| {
+                let filter = FilterSettings { outlier_limit, ..settings.filter.clone() };
+                let mut host = Painted::new(SIZE, Settings { filter, ..settings.clone() });
+                let within = |[x, y]: [u32; 2]| (40..40 + side).contains(&x) && (31..31 + side).contains(&y);
+                let light = |path: &Path| {
+                    let lit = path.frame >= 8 && within(path.pixel);
+                    grey(path.noise() * if lit { times } else { 1.0 })
+                };
+                let images: Vec<Vec<Rgb>> = (0..26).map(|_| host.frame(&light)).collect();
+                mean(&images[18..].concat())
+            });
+            worst.add((limited / believed - 1.0).abs(), || format!("{side}×{side}, × {times:e}, {name}"));
+        }
     }
     worst
 }
