@@ -156,7 +156,7 @@ pub(super) fn candidates(bench: &Bench, random: &mut Random) -> Vec<Texel> {
                 seen,
                 lit: below(seen + 1),
                 candidates: below(seen + 1),
-                running: below(8),
+                running: if below(4) == 0 { below(8) } else { 0 },
                 length: f64::from(below(200)),
                 ..Default::default()
             };
