@@ -129,7 +129,9 @@ fn every_source_and_view_can_be_looked_at() {
         // Where there is no such view the picture is shown instead, with a note.
         let picture = window.picture(Source::Adaptive);
         let varied = picture.texels.iter().any(|t| *t != picture.texels[0]);
-        assert_eq!(varied, view != View::NonFinite, "{view:?}");
+        // Nothing is wrong with these frames.
+        let wrong = matches!(view, View::NonFinite | View::Outliers);
+        assert_eq!(varied, !wrong, "{view:?}");
     }
 }
 
