@@ -44,7 +44,8 @@ fn divisor_at(pixel: vec2<i32>) -> vec3<f32> {
     // Asked for where there is a surface alone.
     divisor = host_albedo(pixel, true);
 #else
-    divisor = textureLoad(albedo, pixel, 0).xyz;
+    // A hole has an albedo of 0, see host_light.wgsl.
+    divisor = max(textureLoad(albedo, pixel, 0).xyz, vec3(0.02));
 #endif
 #ifdef LUMINANCE_PAIRS
     divisor = vec3(luminance(divisor));
