@@ -18,6 +18,7 @@
 #import asvgf::packing::{unpack_normal, unpack_rgb}
 #import asvgf::reproject::SAME_NORMAL
 #import asvgf::sample::sample_at
+#import asvgf::strata::{pixel_at, place_from_center}
 #import asvgf::strata_filter::PLANE
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::is_sample
@@ -61,9 +62,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     let first = select(0u, 9u, frame.continued == 0u);
     for (var k = first; k < 9u; k++) {
-        let at = select(k + 4u, k - 5u, k > 4u);
-        let row = (at * 11u) >> 5u;
-        let pixel = stratum * 3 + vec2<i32>(vec2(at - 3u * row, row));
+        let at = place_from_center(k);
+        let pixel = pixel_at(at, stratum);
         if !inside(pixel) {
             continue;
         }
@@ -98,7 +98,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
 #endif
         if record.x == 0u {
-            record = vec4(at + 1u, 0u, g);
+            record = vec4(at, 0u, g);
             place = point;
             normal = n;
             reach = PLANE * depth;

@@ -14,7 +14,7 @@
 #import asvgf::outliers::{Candidate, LEAST_LEVEL, bound, pack_candidate, ratio_to, unpack_candidate, unpack_limit}
 #import asvgf::packing::unpack_rgb
 #import asvgf::sample::sample_at
-#import asvgf::strata::stratum_of
+#import asvgf::strata::{is_at, pixel_at, place_from_center, stratum_of}
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::is_sample
 #endif
@@ -73,10 +73,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var largest_sightings = 0u;
     var fresh_count = 0.0;
     for (var k = 0u; k < 9u; k++) {
-        // From the centre on.
-        let at = select(k + 4u, k - 5u, k > 4u);
-        let row = (at * 11u) >> 5u;
-        let pixel = stratum * 3 + vec2<i32>(vec2(at - 3u * row, row));
+        let at = place_from_center(k);
+        let pixel = pixel_at(at, stratum);
         if !inside(pixel) {
             continue;
         }
@@ -96,12 +94,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // How often running it was a candidate before.
         let there = stratum_of(vec2<u32>(tap));
         let last = unpack_candidate(textureLoad(candidates_previous, there, 0));
-        let within = vec2<u32>(tap) - 3u * there;
-        let was_one = known && last.place == within.y * 3u + within.x + 1u;
+        let was_one = known && is_at(last.place, vec2<u32>(tap));
 #ifdef IN_PLACE
         // A repeated path is no new sample: nothing is learnt of a candidate there, and nothing forgotten.
         if is_sample_pixel(textureLoad(samples, stratum, 0), vec2<u32>(pixel)) {
-            carried = select(carried, vec2(at + 1u, last.sightings), was_one);
+            carried = select(carried, vec2(at, last.sightings), was_one);
             continue;
         }
 #endif
@@ -117,7 +114,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if n <= 0.0 {
             fresh += l;
             fresh_count += 1.0;
-            largest_at = select(largest_at, at + 1u, l > largest);
+            largest_at = select(largest_at, at, l > largest);
             largest_sightings = select(largest_sightings, sightings, l > largest);
             largest = max(largest, l);
             continue;
@@ -137,7 +134,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if candidate && ratio > farthest {
             farthest = ratio;
             now.brightest = l;
-            now.place = at + 1u;
+            now.place = at;
             now.sightings = min(sightings + 1u, MOST_SIGHTINGS);
         }
     }

@@ -46,7 +46,7 @@
 #import asvgf::strata::is_sample_pixel
 #endif
 #ifdef OUTLIERS
-#import asvgf::strata::stratum_of
+#import asvgf::strata::{is_at, stratum_of}
 #else
 #ifdef IN_PLACE
 #import asvgf::strata::stratum_of
@@ -136,14 +136,12 @@ fn belief_in(pixel: vec2<u32>, l: f32, level: f32, length: f32, lambda: f32) -> 
     let stratum = stratum_of(pixel);
     let believed = unpack_limit(textureLoad(limit, stratum, 0));
     let candidate = unpack_candidate(textureLoad(candidates, stratum, 0));
-    let within = pixel - 3u * stratum;
     let known = max(level, max(LEAST_LEVEL * believed.expected, lambda * believed.level));
     let base = select(known, believed.level, length <= 0.0);
     let ratio = ratio_to(bound(base, length), l);
     let over = ratio > believed.ratio;
     // Outliers are rare: a pixel that is seen so many times running, or a stratum in which some pixel is, is lit.
-    let here = candidate.place == within.y * 3u + within.x + 1u;
-    let confirmed = (here && candidate.sightings == believed.sightings) || (over && candidate.running >= believed.sightings);
+    let confirmed = (is_at(candidate.place, pixel) && candidate.sightings == believed.sightings) || (over && candidate.running >= believed.sightings);
     let scale = select(1.0, believed.ratio / max(ratio, 1e-9), over && !confirmed);
     return Belief(scale * scale, scale, confirmed, believed.level);
 }

@@ -13,16 +13,29 @@ fn stratum_of(pixel: vec2<u32>) -> vec2<u32> {
     return (pixel * 43691u) >> vec2(17u);
 }
 
-fn is_sample_pixel(record: vec4<u32>, pixel: vec2<u32>) -> bool {
+// Whether a pixel is at a place, 1…9, of its stratum.
+fn is_at(place: u32, pixel: vec2<u32>) -> bool {
     let within = pixel - 3u * stratum_of(pixel);
-    return record.x == within.y * 3u + within.x + 1u;
+    return place == within.y * 3u + within.x + 1u;
+}
+
+fn pixel_at(place: u32, stratum: vec2<i32>) -> vec2<i32> {
+    // (place − 1) / 3 for a place of 1…9.
+    let row = ((place - 1u) * 11u) >> 5u;
+    return stratum * SIZE + vec2<i32>(vec2(place - 1u - 3u * row, row));
+}
+
+// The places in the order in which a pixel is looked for that stands for its stratum, k = 0…8: the centre first.
+fn place_from_center(k: u32) -> u32 {
+    return select(k + 5u, k - 4u, k > 4u);
+}
+
+fn is_sample_pixel(record: vec4<u32>, pixel: vec2<u32>) -> bool {
+    return is_at(record.x, pixel);
 }
 
 fn sample_pixel(record: vec4<u32>, stratum: vec2<i32>) -> vec2<i32> {
-    let place = record.x - 1u;
-    // place / 3 for place < 9.
-    let row = (place * 11u) >> 5u;
-    return stratum * SIZE + vec2<i32>(vec2(place - 3u * row, row));
+    return pixel_at(record.x, stratum);
 }
 
 // Where the two radiances of the stratum's path are: in the images of two frames, or in those of the host's pairs.

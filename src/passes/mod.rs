@@ -180,8 +180,8 @@ fn source(features: Features, direct: Feature, image: Image) -> Slot {
     if features.has(direct) { Slot::Host } else { Slot::Now(image) }
 }
 
-/// What finds a pixel's sample, its surface in the last frame, and the history there.
-fn reprojection(features: Features) -> Vec<(&'static str, Slot)> {
+/// What a pixel's sample is, where its surface was, and what the last frame left.
+fn sample_and_history(features: Features) -> Vec<(&'static str, Slot)> {
     let mut found = bindings(
         features,
         [
@@ -198,9 +198,22 @@ fn reprojection(features: Features) -> Vec<(&'static str, Slot)> {
         found.extend(bindings(
             features,
             [
-                ("guide_previous", Slot::Before(Image::Guide), &[]),
                 ("motion", source(features, Feature::HostMotion, Image::Motion), &[]),
                 ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
+            ],
+        ));
+    }
+    found
+}
+
+/// The same, and what tells whether that is the same surface.
+fn reprojection(features: Features) -> Vec<(&'static str, Slot)> {
+    let mut found = sample_and_history(features);
+    if !features.has(Feature::Still) {
+        found.extend(bindings(
+            features,
+            [
+                ("guide_previous", Slot::Before(Image::Guide), &[]),
                 ("object", Slot::Now(Image::Object), &[Feature::Objects]),
                 ("object_previous", Slot::Before(Image::Object), &[Feature::Objects]),
             ],
