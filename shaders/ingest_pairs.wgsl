@@ -7,9 +7,11 @@
 #ifdef DIAGNOSTICS
 #import asvgf::counts::counts
 #endif
-#ifdef HOST_LIGHT
 #ifdef ALBEDO
+#ifdef HOST_LIGHT
 #import asvgf::host_light::host_albedo
+#else
+#import asvgf::host_light::LEAST_ALBEDO
 #endif
 #endif
 
@@ -45,7 +47,7 @@ fn divisor_at(pixel: vec2<i32>) -> vec3<f32> {
     divisor = host_albedo(pixel, true);
 #else
     // A hole has an albedo of 0, see host_light.wgsl.
-    divisor = max(textureLoad(albedo, pixel, 0).xyz, vec3(0.02));
+    divisor = max(textureLoad(albedo, pixel, 0).xyz, vec3(LEAST_ALBEDO));
 #endif
 #ifdef LUMINANCE_PAIRS
     divisor = vec3(luminance(divisor));

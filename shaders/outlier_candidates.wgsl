@@ -5,13 +5,13 @@
 // what is wrong at an edge costs a candidate too many. A pixel without a history is compared with the others of its stratum.
 //
 //   m ← max(l, 0.6·m')        of the stratum where its surface was: light that few paths find shows every few frames
-//   e ← e' + (Σl − e')/min(n + 1, 16)       over the candidates
+//   e ← e' + (Σmin(l, 10⁹·level) − e')/min(n + 1, 16)       over the candidates: no outlier makes all other light look dark
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::history::{history_color, history_length}
 #import asvgf::history_taps::history_at
-#import asvgf::outliers::{Candidate, LEAST_LEVEL, bound, pack_candidate, ratio_to, unpack_candidate, unpack_limit}
+#import asvgf::outliers::{Candidate, LEAST_LEVEL, MOST_RATIO, bound, pack_candidate, ratio_to, unpack_candidate, unpack_limit}
 #import asvgf::packing::unpack_rgb
 #import asvgf::sample::sample_at
 #import asvgf::strata::{is_at, pixel_at, place_from_center, stratum_of}
@@ -62,12 +62,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var last_stratum = vec2(-1);
     var length = 0.0;
     var farthest = 0.0;
-#ifdef IN_PLACE
+    // Place and sightings of a candidate that has no new sample.
     var carried = vec2(0u);
-#endif
     var implied = 0.0;
-    // Samples without a history: their sum, the largest, where that is, and how many.
-    var fresh = 0.0;
+    // Samples without a history: the largest, where that is, the sum of all others (f32 would lose that beside the largest), and how many.
+    var rest = 0.0;
     var largest = 0.0;
     var largest_at = 0u;
     var largest_sightings = 0u;
@@ -83,11 +82,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             continue;
         }
         let arrived = sample_at(pixel, true);
-#ifdef MISSING_SAMPLES
-        if !is_sample(arrived) {
-            continue;
-        }
-#endif
         let before = origin(pixel, bitcast<f32>(g.y));
         let known = frame.continued != 0u && inside(before);
         let tap = clamp(before, vec2(0), vec2<i32>(frame.size) - 1);
@@ -95,13 +89,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let there = stratum_of(vec2<u32>(tap));
         let last = unpack_candidate(textureLoad(candidates_previous, there, 0));
         let was_one = known && is_at(last.place, vec2<u32>(tap));
+        // A missing sample, or a repeated path, teaches nothing of a candidate, and lets nothing be forgotten.
+        var is_new = true;
+#ifdef MISSING_SAMPLES
+        is_new = is_sample(arrived);
+#endif
 #ifdef IN_PLACE
-        // A repeated path is no new sample: nothing is learnt of a candidate there, and nothing forgotten.
-        if is_sample_pixel(textureLoad(samples, stratum, 0), vec2<u32>(pixel)) {
+        is_new &= !is_sample_pixel(textureLoad(samples, stratum, 0), vec2<u32>(pixel));
+#endif
+        if !is_new {
             carried = select(carried, vec2(at, last.sightings), was_one);
             continue;
         }
-#endif
         let l = luminance(unpack_rgb(arrived));
         let sightings = select(0u, last.sightings, was_one && 2.0 * l >= last.brightest);
         let h = history_at(tap);
@@ -112,10 +111,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             length = n;
         }
         if n <= 0.0 {
-            fresh += l;
             fresh_count += 1.0;
             largest_at = select(largest_at, at, l > largest);
             largest_sightings = select(largest_sightings, sightings, l > largest);
+            rest += min(largest, l);
             largest = max(largest, l);
             continue;
         }
@@ -124,11 +123,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         level = max(level, luminance(output_at(tap)));
 #endif
         let around = unpack_limit(textureLoad(limit_previous, there, 0)).expected;
-        let ratio = ratio_to(bound(max(level, LEAST_LEVEL * around), n), l);
+        let least = max(level, LEAST_LEVEL * around);
+        let ratio = ratio_to(bound(least, n), l);
         let candidate = ratio > 0.5 || (sightings > 0u && sightings < MOST_SIGHTINGS && l > 0.0);
         now.expected += level;
         now.candidates += select(0u, 1u, candidate);
-        implied += select(0.0, l, candidate);
+        implied += select(0.0, min(l, MOST_RATIO * least), candidate);
         now.ordinary += select(l, 0.0, candidate);
         now.lit += select(0u, 1u, !candidate && l > 0.0);
         if candidate && ratio > farthest {
@@ -138,13 +138,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             now.sightings = min(sightings + 1u, MOST_SIGHTINGS);
         }
     }
-    let others = (fresh - largest) / max(fresh_count - 1.0, 1.0);
+    let others = rest / max(fresh_count - 1.0, 1.0);
     let ratio = ratio_to(bound(others, 1.0), largest);
     let candidate = fresh_count > 1.0 && ratio > 0.5;
     now.candidates += select(0u, 1u, candidate);
-    implied += select(0.0, largest, candidate);
-    now.ordinary += fresh - select(0.0, largest, candidate);
-    now.expected += fresh - select(0.0, largest, candidate);
+    implied += select(0.0, min(largest, MOST_RATIO * others), candidate);
+    let shown = rest + select(largest, 0.0, candidate);
+    now.ordinary += shown;
+    now.expected += shown;
     now.lit += select(0u, u32(fresh_count) - select(0u, 1u, candidate), others > 0.0);
     if candidate && ratio > farthest {
         now.brightest = largest;
@@ -152,10 +153,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         now.sightings = min(largest_sightings + 1u, MOST_SIGHTINGS);
     }
     let found = now.place != 0u;
-#ifdef IN_PLACE
-    now.sightings = select(now.sightings, carried.y, now.place == 0u);
-    now.place = select(now.place, carried.x, now.place == 0u);
-#endif
+    now.sightings = select(carried.y, now.sightings, found);
+    now.place = select(carried.x, now.place, found);
     now.length = length;
     now.implied = implied;
     if last_stratum.x >= 0 {
@@ -167,6 +166,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let dark = 1e-10 * unpack_limit(textureLoad(limit_previous, last_stratum, 0)).implied;
         now.lit = select(0u, now.lit, now.ordinary > dark * f32(now.seen));
     }
-    now.running = select(0u, min(now.running + 1u, MOST_SIGHTINGS), found);
+    let kept = select(0u, now.running, carried.x != 0u);
+    now.running = select(kept, min(now.running + 1u, MOST_SIGHTINGS), found);
     textureStore(candidates_out, stratum, pack_candidate(now));
 }

@@ -11,6 +11,10 @@
 @group(0) @binding(2) var counts_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(3) var sums_out: texture_storage_2d<rgba32uint, write>;
 
+// Candidates of a row that are counted: 13 rows of them fit into the ten bits that lit and seen pixels (11 each) leave. More than
+// that are never few, see outlier_limit.wgsl.
+const MOST_OF_A_ROW: u32 = 78u;
+
 // ⌊½·log₂(2r)⌋, from the bits of r ≥ ½.
 fn class_of(ratio: f32) -> u32 {
     return min(((bitcast<u32>(ratio) >> 23u) - 126u) >> 1u, 14u);
@@ -22,6 +26,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var counts = vec4(0u);
     var sums = vec3(0.0);
     var pixels = 0u;
+    var candidates_seen = 0u;
     let start = window_start(stratum.x, frame.strata.x);
     let end = min(start + WINDOW, i32(frame.strata.x));
     var expected = 0.0;
@@ -41,8 +46,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         counts += select(vec4(0u), vec4(one), vec4(class_number >> 2u) == vec4(0u, 1u, 2u, 3u));
         counts.w += select(0u, 1u << 24u, c.seen > 0u);
         sums += vec3(c.implied, c.ordinary, c.expected);
-        pixels += c.lit | (c.candidates << 16u);
+        pixels += c.lit | (c.seen << 11u);
+        candidates_seen += c.candidates;
     }
     textureStore(counts_out, stratum, counts);
+    pixels |= min(candidates_seen, MOST_OF_A_ROW) << 22u;
     textureStore(sums_out, stratum, vec4(bitcast<vec3<u32>>(sums), pixels));
 }

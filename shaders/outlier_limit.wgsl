@@ -1,8 +1,8 @@
 // How far above its level a sample may be in each stratum, by what 13×13 strata around have seen.
 //
 // If k strata have a candidate in one class of ratios or above, samples up to the end of the next class are light: k is 6, and 10 once
-// there is a history. Unless light is not sparse there: if the candidates would make a surface brighter by more than a fifth that is
-// lit anyway, and are few beside the samples that say so, none of them is believed.
+// there is a history. That fails where a burst of equal brightness hits a lit
+// surface. So none is believed if the candidates imply more than 1.2 times the light that the others show, and are few beside these.
 
 #import asvgf::frame::frame
 #import asvgf::outliers::{Limit, WINDOW, pack_limit, unpack_candidate, window_start}
@@ -35,9 +35,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let here = unpack_candidate(textureLoad(candidates, stratum, 0));
     let strata = f32(count.w >> 24u);
-    let lit = f32(pixels & 0xffffu);
-    let few = f32(pixels >> 16u);
-    let doubtful = sum.x > IMPLIED * max(sum.y, sum.z) && lit > LIT * 9.0 * strata && few < FEW * lit;
+    let lit = f32(pixels & 0x7ffu);
+    let seen = f32((pixels >> 11u) & 0x7ffu);
+    let few = f32(pixels >> 22u);
+    let doubtful = sum.x > IMPLIED * max(sum.y, sum.z) && lit > LIT * seen && few < FEW * lit;
     let asked = max(3.0, ceil((6.0 + 4.0 * min(here.length / 3.0, 1.0)) * sqrt(strata / f32(WINDOW * WINDOW))));
     var above = 0.0;
     let sightings = select(3u, 6u, doubtful);
@@ -51,7 +52,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let reach = select(bitcast<f32>(u32(127 + 3 + 2 * k) << 23u), 3e38, k >= 13);
         ratio = max(ratio, select(0.0, reach, above >= asked && !doubtful));
     }
-    let pixels_seen = max(9.0 * strata, 1.0);
-    let limit = Limit(ratio, sum.y / pixels_seen, sum.x / pixels_seen, sum.z / pixels_seen, sightings);
+    let limit = Limit(ratio, sum.y / max(seen, 1.0), sum.x / max(seen, 1.0), sum.z / max(seen, 1.0), sightings);
     textureStore(limit_out, stratum, pack_limit(limit));
 }

@@ -8,7 +8,7 @@
 // sample makes of n: 1/n' = (1 − α)²/n + α². That is n + 1 for α = 1/(n + 1), and tends to (2 − α)/α for a constant α: counted
 // in frames instead, the spatial filter would take the noise of a constant α for gone.
 
-#import asvgf::frame::frame
+#import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::history::{pack_history, rounding}
 #import asvgf::history_taps::History
@@ -142,7 +142,11 @@ fn belief_in(pixel: vec2<u32>, l: f32, level: f32, length: f32, lambda: f32) -> 
     let over = ratio > believed.ratio;
     // Outliers are rare: a pixel that is seen so many times running, or a stratum in which some pixel is, is lit.
     let confirmed = (is_at(candidate.place, pixel) && candidate.sightings == believed.sightings) || (over && candidate.running >= believed.sightings);
-    let scale = select(1.0, believed.ratio / max(ratio, 1e-9), over && !confirmed);
+    var scale = select(1.0, believed.ratio / max(ratio, 1e-9), over && !confirmed);
+#ifdef EXTERNAL_LAMBDA
+    // The host knows better: where it drops the history, its sample is all there is.
+    scale = mix(scale, 1.0, lambda);
+#endif
     return Belief(scale * scale, scale, confirmed, believed.level);
 }
 #endif
@@ -211,7 +215,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     let belief = belief_in(id.xy, l, level, history.length, lambda);
     // Without a history, what is not believed is as bright as what is around.
-    let first = mix(min(belief.around / max(l, 1e-37), 1.0), belief.scale, belief.weight);
+    let first = mix(min(belief.around, l) / max(l, 1e-37), belief.scale, belief.weight);
     var color = sample * first;
     var mean = l * first;
     sample *= belief.scale;
@@ -315,7 +319,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let outlier = seen && belief.weight < 1.0;
 #endif
 #ifdef DIAGNOSTICS
-    if outlier {
+    if outlier && inside(pixel) {
         atomicAdd(&counts.outliers, 1u);
     }
 #endif

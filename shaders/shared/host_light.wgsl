@@ -9,6 +9,7 @@
 #import asvgf::packing::round_to_f16
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::is_missing
+#import asvgf::frame::{frame, inside}
 #endif
 #endif
 
@@ -79,7 +80,7 @@ fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
 #ifdef MODULATED
 #ifdef ALBEDO
 #ifdef MISSING_SAMPLES
-// Neighbours with an albedo that make one of 0 a hole. Beside a straight edge there are three.
+// Neighbours with an albedo that make one of 0 a hole. Beside an edge along rows, columns or diagonals there are three at most.
 const AROUND_A_HOLE: u32 = 4u;
 
 // Whether a pixel without light is black by chance. Failure: one pixel in five of a metal had neither albedo nor light in each frame, as its
@@ -91,17 +92,16 @@ fn is_hole(pixel: vec2<i32>, black: bool) -> bool {
     let taps = select(0, 9, black && all(textureLoad(albedo, pixel, 0).xyz == vec3(0.0)));
     for (var i = 0; i < taps; i++) {
         let row = (i * 11) >> 5u;
-        // Outside of the image there is nothing.
-        let there = textureLoad(albedo, pixel + vec2(i - 3 * row, row) - 1, 0).xyz;
-        reflecting += select(0u, 1u, any(there > vec3(0.0)));
+        let tap = pixel + vec2(i - 3 * row, row) - 1;
+        let there = textureLoad(albedo, clamp(tap, vec2(0), vec2<i32>(frame.size) - 1), 0).xyz;
+        reflecting += select(0u, 1u, inside(tap) && any(there > vec3(0.0)));
     }
     return reflecting >= AROUND_A_HOLE;
 }
 
 // What the filtered light of a pixel is multiplied with, whose sample this is: what light the surface around sends into a hole stays dark.
 fn shown_albedo(pixel: vec2<i32>, hit: bool, arrived: vec2<u32>) -> vec3<f32> {
-    let black = is_missing(arrived) && hit && all(textureLoad(albedo, pixel, 0).xyz == vec3(0.0));
-    return select(host_albedo(pixel, hit), vec3(0.0), black);
+    return select(host_albedo(pixel, hit), vec3(0.0), is_hole(pixel, is_missing(arrived) && hit));
 }
 #endif
 #endif

@@ -89,8 +89,9 @@ impl Limit {
     }
 }
 
-/// B = limit·level·max(1, n/64).
+/// B = limit·level·max(1, min(n, longest history)/64).
 pub(super) fn bound(settings: &Settings, level: f64, length: f64) -> f64 {
+    let length = length.min(settings.filter.max_history.into());
     f64::from(settings.filter.outlier_limit) * level * (length / 64.0).max(1.0)
 }
 
@@ -138,7 +139,11 @@ impl Given {
         let over = ratio > limit.ratio;
         let here = candidate.place as i32 == y % 3 * 3 + x % 3 + 1;
         let confirmed = here && candidate.sightings == limit.sightings || over && candidate.running >= limit.sightings;
-        let scale = if over && !confirmed { limit.ratio / ratio } else { 1.0 };
+        let mut scale = if over && !confirmed { limit.ratio / ratio } else { 1.0 };
+        if self.has(Feature::ExternalLambda) {
+            // The host knows better.
+            scale += (1.0 - scale) * lambda;
+        }
         Belief { weight: scale * scale, scale, confirmed, around: limit.level }
     }
 }
@@ -200,8 +205,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
         let (x, y) = (sx * 3 + at % 3, sy * 3 + at / 3);
         let Some(i) = bench.at(x, y).filter(|&i| depth(given.guide[i]) > 0.0) else { continue };
         let own = given.samples[bench.stratum(sx, sy).unwrap()][0] as i32 == at + 1;
-        let Some(sample) = given.sample(i) else { continue };
-        let l = luminance(sample);
+        let sample = given.sample(i);
         let m = if given.has(Feature::Still) { [0.0; 3] } else { given.motion[i] };
         let was = [f64::from(x) + 0.5 + m[0], f64::from(y) + 0.5 + m[1]];
         unsure |= was.iter().any(|p| (p - p.round()).abs() < 1e-4);
@@ -211,10 +215,11 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
         let there = q.map(|_| bench.stratum(tap[0] / 3, tap[1] / 3).unwrap());
         let last_one = there.map(|there| Candidate::unpack(before[there]));
         let was_one = last_one.filter(|last| last.place as i32 == tap[1] % 3 * 3 + tap[0] % 3 + 1);
-        if given.has(Feature::InPlace) && own {
+        let Some(sample) = sample.filter(|_| !(given.has(Feature::InPlace) && own)) else {
             carried = was_one.map_or(carried, |last| (at as u32 + 1, last.sightings));
             continue;
-        }
+        };
+        let l = luminance(sample);
         now.seen += 1;
         if let (None, Some(there)) = (last_stratum, there) {
             last_stratum = Some(there);
@@ -234,13 +239,14 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
             level = level.max(luminance(unpack_rgb([given.output[q][0], given.output[q][1]])));
         }
         let around = Limit::unpack(limits[there.unwrap()]).expected;
-        let ratio = ratio_to(bound(&bench.settings, level.max(LEAST_LEVEL * around), n), l);
+        let least = level.max(LEAST_LEVEL * around);
+        let ratio = ratio_to(bound(&bench.settings, least, n), l);
         unsure |= (ratio - 0.5).abs() < 1e-3 || (ratio / farthest - 1.0_f64).abs() < 1e-3;
         let candidate = ratio > 0.5 || (1..7).contains(&sightings) && l > 0.0;
         now.expected += level;
         if candidate {
             now.candidates += 1;
-            implied += l;
+            implied += l.min(MOST_RATIO * least);
             if ratio > farthest {
                 farthest = ratio;
                 (now.brightest, now.place, now.sightings) = (l, place, (sightings + 1).min(7));
@@ -261,7 +267,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
     let rest = sum - if candidate { largest.0 } else { 0.0 };
     if candidate {
         now.candidates += 1;
-        implied += largest.0;
+        implied += largest.0.min(MOST_RATIO * others);
         if ratio > farthest {
             (now.brightest, now.place, now.sightings) = (largest.0, largest.1, (largest.2 + 1).min(7));
         }
@@ -288,7 +294,12 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
             now.lit = 0;
         }
     }
-    now.running = if found { (now.running + 1).min(7) } else { 0 };
+    now.running = match found {
+        true => (now.running + 1).min(7),
+        // Nothing was learnt.
+        false if carried.0 != 0 => now.running,
+        false => 0,
+    };
     (now, unsure)
 }
 
@@ -343,10 +354,12 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
     };
     let (columns, rows) = (range(sx, extent[0]), range(sy, extent[1]));
     let mut classes = Vec::new();
-    let (mut sums, mut strata, mut lit, mut few) = ([0.0; 3], 0.0, 0.0, 0.0);
+    let (mut sums, mut strata, mut lit, mut few, mut all_seen) = ([0.0; 3], 0.0, 0.0, 0.0, 0.0_f64);
     for y in rows {
         let row: Vec<_> = columns.clone().map(|x| Candidate::unpack(records[bench.stratum(x, y).unwrap()])).collect();
         let seen: u32 = row.iter().map(|c| c.seen).sum();
+        all_seen += f64::from(seen);
+        few += f64::from(row.iter().map(|c| c.candidates).sum::<u32>().min(78));
         let least = LEAST_LEVEL * row.iter().map(|c| c.expected).sum::<f64>() / f64::from(seen.max(1));
         for c in row {
             let level = (c.expected / f64::from(c.seen.max(1))).max(least);
@@ -359,14 +372,13 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
                 *sum += x;
             }
             lit += f64::from(c.lit);
-            few += f64::from(c.candidates);
         }
     }
     let here = Candidate::unpack(records[bench.stratum(sx, sy).unwrap()]);
     let most = 1.2 * sums[1].max(sums[2]);
-    let doubtful = sums[0] > most && lit > 0.15 * 9.0 * strata && few < 0.2 * lit;
+    let doubtful = sums[0] > most && lit > 0.15 * all_seen && few < 0.2 * lit;
     let asked = ((6.0 + 4.0 * (here.length / 3.0).min(1.0)) * (strata / 169.0_f64).sqrt()).ceil().max(3.0);
-    let mut unsure = (sums[0] / most - 1.0).abs() < 1e-3 || (lit / (1.35 * strata) - 1.0).abs() < 1e-6;
+    let mut unsure = (sums[0] / most - 1.0).abs() < 1e-3 || (lit / (0.15 * all_seen) - 1.0).abs() < 1e-6;
     unsure |= (few / (0.2 * lit) - 1.0).abs() < 1e-6;
     // One on the border of two classes may be in either.
     unsure |= classes.iter().any(|c| (c - c.round()).abs() < 1e-4);
@@ -379,7 +391,7 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
         Some(13 | 14) => 3e38,
         Some(k) => 8.0 * 4_f64.powi(k),
     };
-    let pixels = (9.0 * strata).max(1.0);
+    let pixels = all_seen.max(1.0);
     let [implied, level, expected] = [sums[0], sums[1], sums[2]].map(|s| s / pixels);
     (Limit { ratio, level, implied, expected, sightings }, unsure)
 }

@@ -120,7 +120,7 @@ impl Given {
             .then(|| self.belief([x, y], l, [level[0], level[1], out.lambda], &mut out.unsure));
         if let Some(belief) = belief {
             // Without a history: the sample as far as it is believed, else as bright as what is around.
-            let doubted = (belief.around / l.max(1e-37)).min(1.0);
+            let doubted = belief.around.min(l) / l.max(1e-37);
             let first = belief.weight * belief.scale + (1.0 - belief.weight) * doubted;
             out.color = scale(sample, first);
             out.mean = l * first;
