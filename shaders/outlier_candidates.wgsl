@@ -1,8 +1,8 @@
 // Which samples may be outliers: in each stratum the one that is farthest above its level, and what the other pixels show.
 //
 // A candidate is brighter than half of B (outliers.wgsl), or was one in the last frame and is still half as bright, so that a steady highlight
-// is seen to be one. Its history is that of the nearest pixel where its surface was, of any surface:
-// what is wrong at an edge costs a candidate too many. A pixel without a history is compared with the others of its stratum.
+// is seen to be one. Its history is that of the nearest pixel where its surface was, whatever
+// surface that shows: a wrong one at an edge costs a candidate too many. A pixel without a history is compared with the others of its stratum.
 //
 //   m ← max(l, 0.6·m')        of the stratum where its surface was: light that few paths find shows every few frames
 //   e ← e' + (Σmin(l, 10⁹·level) − e')/min(n + 1, 16)       over the candidates: no outlier makes all other light look dark

@@ -3,7 +3,8 @@
 use super::readback::Mailbox;
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device};
 
-/// How many pixels of a host's frame had to be cleaned before they could reach the history. All zero is as it should be.
+/// How many pixels of a host's frame had to be cleaned before they could reach the history: all zero is as it should be. Outliers are counted
+/// beside these; a clean frame may have some.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct InputCounts {

@@ -121,7 +121,7 @@ fn black_texels_stay_black() {
         };
         let (black, paper, expected) = (mean(&images[0], true), mean(&images[0], false), mean(&images[1], false));
         println!("frame {}: ink {black:.5}, paper {paper:.4}, without ink {expected:.4}", frame.index);
-        // An albedo of 0 counts as 0.02 where it divides, and so where it multiplies.
+        // Where ink has no light either, it is shown black.
         assert!((paper / expected - 1.0).abs() < 0.06, "frame {}: paper of {paper}, not {expected}", frame.index);
         assert!(black < 0.02 * expected, "frame {}: ink of {black} on paper of {paper}", frame.index);
     }
