@@ -5,33 +5,40 @@ mod arguments;
 #[allow(dead_code, reason = "shared with `render`, which writes sequences")]
 #[path = "support/camera.rs"]
 mod camera;
-#[path = "support/camera_fit.rs"]
-mod camera_fit;
+#[path = "support/clean_albedo.rs"]
+mod clean_albedo;
 #[path = "support/denoise_options.rs"]
 mod denoise_options;
 #[path = "support/film.rs"]
 mod film;
 #[path = "support/gpu.rs"]
 mod gpu;
-#[path = "support/layers.rs"]
-mod layers;
+#[path = "support/look_ahead.rs"]
+mod look_ahead;
+#[path = "support/output.rs"]
+mod output;
 #[path = "support/replay.rs"]
 mod replay;
-#[path = "support/sequence.rs"]
+#[path = "support/sequence/mod.rs"]
 mod sequence;
+#[path = "support/summary.rs"]
+mod summary;
 #[path = "support/times.rs"]
 mod times;
+#[path = "support/tone.rs"]
+mod tone;
 
-use arguments::{Format, Usage};
-use asvgf::{FilterSettings, Gradient, Settings, image_io};
+use arguments::Usage;
+use asvgf::{FilterSettings, Gradient, Settings};
 use denoise_options::{Options, Request};
 use film::Film;
 use gpu::Gpu;
 use indicatif::{ProgressBar, ProgressStyle};
-use layers::Layer;
-use sequence::{Eye, Sequence};
+use sequence::Sequence;
+use sequence::layers::Layer;
 use std::error::Error;
 use std::io::Write as _;
+use std::path::Path;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -58,84 +65,60 @@ fn main() -> ExitCode {
 
 fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let bar = progress("looking at frames");
-    let mut sequence = Sequence::open(&options.input, options.names.clone(), options.fov_y, |frames| {
+    let mut sequence = Sequence::open(options.source.clone(), |frames| {
         bar.set_length(frames.into());
         bar.inc(1);
     })?;
     sequence.in_place |= options.in_place;
     bar.finish_and_clear();
-    let gradient = source(options, &sequence);
-    eprint!("{}", summary(&sequence));
+    refuse_to_overwrite(options, &sequence)?;
+    let settings = settings(options, &sequence);
+    let ahead = (!options.causal).then(|| look_ahead::settings(&settings));
+    eprint!("{}", summary::before(&sequence, &settings, ahead.is_some()));
 
     let gpu = Gpu::new()?;
-    let mut film = Film::new(&gpu, sequence.size, settings(options, gradient))?;
+    let mut film = Film::new(&gpu, sequence.size, settings)?;
     std::fs::create_dir_all(&options.out).map_err(|e| format!("--out {}: {e}", options.out.display()))?;
     let bar = progress("denoising");
-    bar.set_length((sequence.last - sequence.first + 1).into());
-    let denoised = replay::denoise(&mut film, &sequence, |frame, film| {
+    bar.set_length(sequence.frames() as u64);
+    let denoised = look_ahead::denoise(&mut film, ahead.as_ref(), &sequence, &mut |index, image, _, film| {
         bar.inc(1);
-        write(options, film, frame)
+        output::write(options, &sequence, index, image, film)
     })?;
     bar.finish_and_clear();
-    if let Some(frame) = denoised.repeated {
-        eprintln!(
-            "note: frames before {frame} are the same, to the last bit, wherever nothing moves: frames are denoised by themselves \
-             from there on, as long as that is so; let the renderer take another seed in each, and averages over time are possible"
-        );
-    }
+    eprint!("{}", summary::after(&denoised));
     say(&times::table(&denoised.times, None, sequence.size, &gpu));
     say(&format!("{} frames in {}\n", denoised.times.len(), options.out.display()));
     Ok(())
 }
 
-/// What makes α adaptive: what there is.
-fn source(options: &Options, sequence: &Sequence) -> Gradient {
-    match options.constant {
+/// The frames themselves are never written over.
+fn refuse_to_overwrite(options: &Options, sequence: &Sequence) -> Result<(), String> {
+    let folder = sequence.files[0].path.parent().unwrap_or(Path::new(".")).canonicalize().ok();
+    if options.same_names && folder.is_some() && folder == options.out.canonicalize().ok() {
+        return Err("--same-names: would write over the frames: let --out be another folder".into());
+    }
+    Ok(())
+}
+
+/// α adapts by what there is.
+fn settings(options: &Options, sequence: &Sequence) -> Settings {
+    let gradient = match options.constant {
         Some(_) => Gradient::Off,
         None if sequence.has(Layer::GradientCurrent) => Gradient::Pairs,
         None if sequence.has(Layer::Lambda) => Gradient::Lambda,
         None => Gradient::Statistics,
+    };
+    let mut filter = FilterSettings { gradient, ..options.preset.clone() };
+    if !sequence.has_surfaces() {
+        // Without depths no plane is known to be one.
+        (filter.sigma_depth, filter.sigma_foreshortening) = (1e6, 0.0);
     }
-}
-
-fn settings(options: &Options, gradient: Gradient) -> Settings {
-    let filter = FilterSettings { gradient, ..options.preset.clone() };
     let settings = Settings { filter, ..Settings::adaptive() };
     match options.constant {
         Some(alpha) => settings.constant(alpha),
         None => settings,
     }
-}
-
-/// What was found, what was not, and what that means.
-fn summary(sequence: &Sequence) -> String {
-    let list = |wanted: bool| {
-        let layers = Layer::ALL.into_iter().filter(|&layer| sequence.has(layer) == wanted);
-        layers.map(Layer::name).collect::<Vec<_>>().join(", ")
-    };
-    let [width, height] = sequence.size;
-    let mut out = format!("frames {} to {}, {width}×{height}, with {}\n", sequence.first, sequence.last, list(true));
-    let absent = list(false);
-    if !absent.is_empty() {
-        out += &format!("left out, as the files do not have it: {absent}\n");
-    }
-    out += match sequence.eye {
-        Eye::Given => "",
-        Eye::Fitted => {
-            "note: no cameras in manifest.json: they were derived from normals and depth, but for where they are\n"
-        }
-        Eye::Assumed => {
-            "note: no cameras in manifest.json: one at the origin is taken, that looks along -Z with +Y up; normals should be in \
-             its space, and --fov-y right\n"
-        }
-    };
-    if !sequence.has(Layer::Motion) {
-        out += match sequence.eye {
-            Eye::Given => "note: motion is absent: only the camera is taken to move\n",
-            Eye::Fitted | Eye::Assumed => "note: motion is absent: the camera is taken to turn, and nothing to move\n",
-        };
-    }
-    out
 }
 
 /// Prints; whoever reads may have seen enough, as `head` does.
@@ -148,21 +131,4 @@ fn progress(what: &'static str) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:32} {pos} of {len}  {msg}  {elapsed} gone, {eta} to go");
     let bar = ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar.with_message(what)
-}
-
-/// Writes the images of the last frame in each format.
-fn write(options: &Options, film: &mut Film<'_>, frame: u32) -> Result<(), Box<dyn Error>> {
-    let [width, height] = film.denoiser.size();
-    for &(name, view) in &options.outputs {
-        for &format in &options.formats {
-            let path = |extension: &str| options.out.join(format!("{name}_{frame:04}.{extension}"));
-            match format {
-                Format::Png => {
-                    image_io::write_png(path("png"), width, height, &film.picture(view, options.exposure)?)?;
-                }
-                Format::Exr => image_io::write_exr_rgb(path("exr"), width, height, &film.numbers(view)?)?,
-            }
-        }
-    }
-    Ok(())
 }

@@ -16,7 +16,7 @@ mod framing;
 #[path = "support/gpu.rs"]
 mod gpu;
 #[allow(dead_code, reason = "shared with `denoise`, which reads what is written here")]
-#[path = "support/layers.rs"]
+#[path = "support/sequence/layers.rs"]
 mod layers;
 #[path = "support/options.rs"]
 mod options;

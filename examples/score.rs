@@ -1,15 +1,12 @@
-//! Scores a denoised sequence against its references: `cargo run --release --example score -- OUT_DIR IN_DIR`.
+//! Scores a denoised sequence against its references: `cargo run --release --example score -- OUT_DIR IN [REFERENCES]`.
 
 #[allow(dead_code, reason = "shared with `denoise`")]
 #[path = "support/camera.rs"]
 mod camera;
-#[path = "support/camera_fit.rs"]
-mod camera_fit;
-#[path = "support/layers.rs"]
-mod layers;
 #[path = "support/scoring.rs"]
 mod scoring;
-#[path = "support/sequence.rs"]
+#[allow(dead_code, reason = "shared with `denoise`")]
+#[path = "support/sequence/mod.rs"]
 mod sequence;
 
 use std::io::Write as _;
@@ -19,10 +16,11 @@ use std::process::ExitCode;
 const HELP: &str = "\
 Scores a denoised sequence against its references.
 
-Usage: cargo run --release --example score -- OUT_DIR IN_DIR
+Usage: cargo run --release --example score -- OUT_DIR IN [REFERENCES]
 
-OUT_DIR holds denoised_0000.exr, …, as `denoise` or another denoiser wrote them; IN_DIR the
-frames, and beside each its converged image, reference_0000.exr, …
+OUT_DIR holds denoised_0000.exr, …, as `denoise` or another denoiser wrote them; IN the
+frames, as `denoise` takes them; REFERENCES, or else the folder of the frames, the converged
+image of each, reference_0000.exr, …. Results and references may also be called as the frames are.
 
 Over the pixels that are neither emitters nor misses, and then over the frames:
   relMSE    mean (a − b)² / (b² + 0.01)
@@ -37,9 +35,10 @@ fn main() -> ExitCode {
             say(HELP);
             Ok(())
         }
-        [out, input] => scoring::score(out, input).map(|scores| say(&format!("{scores}\n"))),
+        [out, input] => score(out, input, &folder(input)),
+        [out, input, references] => score(out, input, references),
         _ => {
-            eprintln!("error: two folders are needed, OUT_DIR and IN_DIR\n(--help says more)");
+            eprintln!("error: two folders are needed, OUT_DIR and IN\n(--help says more)");
             return ExitCode::from(2);
         }
     };
@@ -50,6 +49,15 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn score(out: &Path, input: &Path, references: &Path) -> Result<(), Box<dyn std::error::Error>> {
+    scoring::score(out, input, references).map(|scores| say(&format!("{scores}\n")))
+}
+
+/// Where frames are that may be named by one of them.
+fn folder(input: &Path) -> PathBuf {
+    if input.is_dir() { input.to_owned() } else { input.parent().unwrap_or(Path::new("")).to_owned() }
 }
 
 /// Prints; whoever reads may have seen enough, as `head` does.

@@ -4,7 +4,7 @@
 // Taps are written out one by one and without branches: on a software adapter a loop costs 40 % more, and a branch is
 // executed either way.
 
-#import asvgf::frame::{frame, inside}
+#import asvgf::frame::{frame, inside, scale_at}
 #import asvgf::color::luminance
 #import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb, pack_tap, tap_color, tap_variance}
 #import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance, foreshortening}
@@ -220,7 +220,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     );
 #endif
     // Slopes per stride, in units of the tolerated distance.
-    plane.slope *= vec3(1.0, vec2(f32(stride))) / (frame.sigma_depth * depth);
+    plane.slope *= vec3(1.0, vec2(f32(stride))) / (frame.sigma_depth * scale_at(frame.camera, depth));
     let c = Center(plane, normal * (1.0 / 511.0), own_luminance, variance, vec2(0.0));
 #endif
     var sums: Sums;

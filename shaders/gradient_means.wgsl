@@ -11,7 +11,7 @@
 // The reference is the first pixel with a history, from the centre on. A history of one sample says nothing about v: until n is 5, a
 // deviation of twice the mean is mixed in.
 
-#import asvgf::frame::{frame, inside, sample_point, world_position}
+#import asvgf::frame::{frame, inside, sample_point, world_position, scale_at}
 #import asvgf::color::luminance
 #import asvgf::history_taps::{History, bilinear_taps, mean_of, motion_of, origin_at}
 #import asvgf::means::{Means, pack_before, pack_now, scaled}
@@ -101,7 +101,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             record = vec4(at, 0u, g);
             place = point;
             normal = n;
-            reach = PLANE * depth;
+            reach = PLANE * scale_at(frame.camera, depth);
         }
         let length = clamp(history.length, 1.0, frame.max_history);
         let v = sample_variance(history, length);

@@ -1,7 +1,7 @@
 // What the spatial filter starts from: the history's colour and how uncertain it is. While a pixel's history is short its own
 // variance means little: it is estimated from the neighbours instead (Schied et al. 2017, §4.2).
 
-#import asvgf::frame::{frame, inside}
+#import asvgf::frame::{frame, inside, scale_at}
 #import asvgf::color::luminance
 #import asvgf::history::{history_color, history_variance, history_length}
 #import asvgf::packing::{unpack_normal, pack_tap}
@@ -26,7 +26,7 @@ fn weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<u32>) -> f
     if depth <= 0.0 {
         return 0.0;
     }
-    let exponent = plane_distance(plane, vec2<f32>(offset), depth) / (0.02 * plane.depth)
+    let exponent = plane_distance(plane, vec2<f32>(offset), depth) / (0.02 * scale_at(frame.camera, plane.depth))
         + 64.0 * (1.0 - dot(normal, unpack_normal(g.x)));
     return falloff(exponent);
 }

@@ -25,14 +25,15 @@ impl Default for Camera {
     }
 }
 
-/// A perspective camera as renderers have it. Matrices are arrays of columns: `m[column][row]`, as glam's `to_cols_array_2d` gives
+/// A perspective or orthographic camera as renderers have it. Matrices are arrays of columns: `m[column][row]`, as glam's `to_cols_array_2d` gives
 /// them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matrices {
     /// World space to view space: a rotation and a translation, without scale. Right- or left-handed.
     pub view: [[f32; 4]; 4],
-    /// View space to clip space, x right and y up, **without** the jitter. Any depth range: reversed and infinite ones too, as
-    /// depth is not read from it. It may be off-centre.
+    /// View space to clip space, x right and y up, **without** the jitter. Any depth range: reversed and infinite ones too, because
+    /// depth is not read from it. It may be off-centre (shifted lenses, crops). An orthographic one looks to where its depth grows; it counts as
+    /// reversed if the eye itself has a depth above ½. Surfaces must lie in front of the eye, at depths above 0.
     pub projection: [[f32; 4]; 4],
     /// Where the ray of a pixel goes through it, from its centre, in pixels, x right, y **down**: −½…½. The same for all pixels of a
     /// frame.
@@ -78,7 +79,8 @@ pub(crate) struct CameraUniform {
     forward: [f32; 3],
     jitter_y: f32,
     corner: [f32; 3],
-    pad: f32,
+    /// 1 for an orthographic view: then the ray's spread does not grow with depth.
+    orthographic: f32,
     du: [f32; 3],
     inverse_du: f32,
     dv: [f32; 3],
@@ -129,7 +131,7 @@ impl CameraUniform {
             forward: narrow(forward),
             jitter_y: jitter[1],
             corner: narrow(corner),
-            pad: 0.0,
+            orthographic: 0.0,
             du: narrow(du),
             inverse_du: (1.0 / dot(du, du)) as f32,
             dv: narrow(dv),
@@ -141,7 +143,8 @@ impl CameraUniform {
 impl Matrices {
     /// As [`Camera::uniform`]. A point v of view space has the linear depth z = s·v_z, s = ±1 by handedness, and the image point
     /// ndc = A·(v_xy/z) + s·(P₂₀, P₂₁) with A the upper left 2×2 of the projection, divided by |P₂₃|. Solved for v_xy/z, and turned
-    /// into world space, that is the ray of an image point, affine in it.
+    /// into world space, that is the ray of an image point, affine in it. In an orthographic view, divided by P₃₃,
+    /// ndc = A·v_xy + (P₃₀, P₃₁), and what is affine is the place of the ray instead of its direction.
     fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
         let wrong = |element, reason| Err(Error::Camera { element, reason });
         let finite = |m: &[[f32; 4]; 4]| m.iter().flatten().all(|x| x.is_finite());
@@ -164,18 +167,33 @@ impl Matrices {
         }
         let p = self.projection.map(|c| c.map(f64::from));
         let along = p[2][3].abs();
-        if p[0][3] != 0.0 || p[1][3] != 0.0 || p[3][3] != 0.0 || along < 1e-30 {
-            return wrong("projection", "is not a perspective one: its last row must be 0 0 ±1 0");
+        let orthographic = along == 0.0 && p[3][3].abs() >= 1e-30;
+        if p[0][3] != 0.0 || p[1][3] != 0.0 || (p[3][3] != 0.0 && !orthographic) || (along < 1e-30 && !orthographic) {
+            return wrong(
+                "projection",
+                "is neither a perspective one, with a last row of 0 0 ±1 0, nor an orthographic one, with 0 0 0 1",
+            );
         }
-        let p = p.map(|c| c.map(|e| e / along));
-        let side = p[2][3].signum();
+        let p = p.map(|c| c.map(|e| e / if orthographic { p[3][3] } else { along }));
+        let side = if orthographic {
+            // Depth grows away from the eye, unless it is reversed.
+            if p[2][2] == 0.0 {
+                return wrong("projection", "is orthographic and has no depth: which way it looks is unknown");
+            }
+            if p[3][2] > 0.5 { -p[2][2].signum() } else { p[2][2].signum() }
+        } else {
+            p[2][3].signum()
+        };
+        // Where the middle of the view lands in the image.
+        let middle = if orthographic { [p[3][0], p[3][1]] } else { [side * p[2][0], side * p[2][1]] };
         let determinant = p[0][0] * p[1][1] - p[1][0] * p[0][1];
-        if determinant.abs() < 1e-12 || p[3][0] != 0.0 || p[3][1] != 0.0 {
+        let other = if orthographic { [p[2][0], p[2][1]] } else { [p[3][0], p[3][1]] };
+        if determinant.abs() < 1e-12 || other != [0.0; 2] {
             return wrong("projection", "does not map directions to image points one to one");
         }
-        // v_xy/z of a point of the image plane, −1…1.
+        // v_xy/z, or v_xy, of a point of the image plane, −1…1.
         let slope = |x: f64, y: f64| {
-            let (x, y) = (x - side * p[2][0], y - side * p[2][1]);
+            let (x, y) = (x - middle[0], y - middle[1]);
             [(p[1][1] * x - p[1][0] * y) / determinant, (p[0][0] * y - p[0][1] * x) / determinant]
         };
         // View to world: the transpose of the rotation.
@@ -188,7 +206,8 @@ impl Matrices {
             return wrong("projection", "shears the image");
         }
         let eye = scale(world(translation), -1.0);
-        Ok(CameraUniform::new(eye, world([0.0, 0.0, side]), [corner, du, dv], self.jitter))
+        let uniform = CameraUniform::new(eye, world([0.0, 0.0, side]), [corner, du, dv], self.jitter);
+        Ok(CameraUniform { orthographic: f32::from(u8::from(orthographic)), ..uniform })
     }
 }
 
@@ -238,7 +257,7 @@ mod tests {
     #[cfg(feature = "path-tracer")]
     fn the_camera_lies_where_the_shader_reads_it() {
         use crate::twins::layout::{assert_layout, fields};
-        let fields = fields!(CameraUniform: eye, jitter_x, forward, jitter_y, corner, du, inverse_du, dv, inverse_dv);
+        let fields = fields!(CameraUniform: eye, jitter_x, forward, jitter_y, corner, orthographic, du, inverse_du, dv, inverse_dv);
         assert_layout("Camera", fields, size_of::<CameraUniform>());
     }
 
@@ -337,6 +356,40 @@ mod tests {
         }
     }
 
+    /// Parallel views of every convention, off-centre too, against where glam puts points.
+    #[test]
+    #[cfg(feature = "path-tracer")]
+    fn points_are_seen_where_orthographic_matrices_put_them() {
+        use glam::camera::{lh, rh};
+        use glam::{Mat4, Vec3};
+        let c = oblique();
+        let right = view_rh(&c);
+        let left = Mat4::from_scale(Vec3::new(1.0, 1.0, -1.0)) * right;
+        let conventions = [
+            (right, rh::proj::directx::orthographic(-2.0, 3.0, -1.5, 1.0, 0.1, 50.0)),
+            (right, rh::proj::directx::orthographic(-2.0, 3.0, -1.5, 1.0, 50.0, 0.1)),
+            (right, rh::proj::opengl::orthographic(-2.0, 3.0, -1.5, 1.0, 0.1, 50.0)),
+            (left, lh::proj::directx::orthographic(-2.0, 3.0, -1.5, 1.0, 0.1, 50.0)),
+            (left, lh::proj::directx::orthographic(-2.0, 3.0, -1.5, 1.0, 50.0, 0.1) * 2.0),
+        ];
+        let points = [Vec3::new(-0.4, 0.3, -1.5), Vec3::new(0.2, -0.1, 0.3), Vec3::new(-1.5, 1.0, -4.0)];
+        for ((view, projection), point) in conventions.into_iter().flat_map(|v| points.map(|p| (v, p))) {
+            let matrices =
+                Matrices { view: view.to_cols_array_2d(), projection: projection.to_cols_array_2d(), jitter: [0.0; 2] };
+            let u = matrices.uniform([64, 48]).unwrap();
+            assert_eq!(u.orthographic, 1.0);
+            let clip = projection * view * point.extend(1.0);
+            let (x, y) = ((clip.x / clip.w + 1.0) / 2.0 * 64.0, (1.0 - clip.y / clip.w) / 2.0 * 48.0);
+            let depth = f64::from(-(right * point.extend(1.0)).z);
+            let d = along(&u, x.into(), y.into());
+            for axis in 0..3 {
+                let forward = f64::from(u.forward[axis]);
+                let found = f64::from(u.eye[axis]) + d[axis] - forward + depth * forward;
+                assert!((found - f64::from(point[axis])).abs() < 1e-4, "{point}: {found} on axis {axis}");
+            }
+        }
+    }
+
     #[test]
     fn impossible_matrices_are_refused_by_name() {
         let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
@@ -355,10 +408,11 @@ mod tests {
         for view in [with(unit, 0, 0, 2.0), with(unit, 3, 1, f32::NAN), with(unit, 1, 0, 0.5), with(unit, 0, 3, 1.0)] {
             assert_eq!(named(Matrices { view, ..good }), "view");
         }
-        // Orthographic, singular, sheared, not finite.
+        // Orthographic without depth, both, singular, sheared, not finite.
         let orthographic = with(with(projection, 2, 3, 0.0), 3, 3, 1.0);
         for projection in [
             orthographic,
+            with(projection, 3, 3, 1.0),
             with(projection, 0, 0, 0.0),
             with(projection, 1, 0, 0.5),
             with(projection, 2, 2, f32::INFINITY),

@@ -42,7 +42,7 @@ mod framing;
 #[path = "../support/gpu.rs"]
 mod gpu;
 #[allow(dead_code, reason = "shared with `denoise`, which reads sequences")]
-#[path = "../support/layers.rs"]
+#[path = "../support/sequence/layers.rs"]
 mod layers;
 #[allow(dead_code, reason = "of `render`'s options only what says which scene is shown")]
 #[path = "../support/options.rs"]

@@ -3,7 +3,18 @@
 use asvgf::{Matrices, Viewpoint};
 use serde_json::{Value, json};
 
-/// A perspective camera: the ray of an image point (x, y), −1…1, y up, is `forward + x·slope·right + y·slope·(h/w)·up`.
+/// How rays leave the camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// From one point: the tangent of half the horizontal field of view.
+    Perspective(f64),
+    /// Along one direction: half the picture's width in the world.
+    Orthographic(f64),
+}
+
+/// A camera. With the picture's point (x, y), −1…1, y up, the pixel's point at the depth z is, with s the lens's number and h/w the picture's
+/// height over width: `eye + z·(forward + u·right + v·up)` in a perspective, `eye + z·forward + u·right + v·up` in an orthographic
+/// view, u = s·(x + shift₀), v = s·(y·h/w + shift₁).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     pub eye: [f64; 3],
@@ -11,71 +22,183 @@ pub struct Camera {
     pub forward: [f64; 3],
     pub right: [f64; 3],
     pub up: [f64; 3],
-    /// Tangent of half the horizontal field of view.
-    pub slope: f64,
+    pub lens: Lens,
+    /// Of the lens against the picture, in halves of its width: right and up.
+    pub shift: [f64; 2],
     /// Of the rays within their pixels, from the centre, x right, y down.
     pub jitter: [f64; 2],
 }
 
-impl Camera {
-    /// At the origin, with a vertical field of view in radians, along −Z with +Y up.
-    pub fn at_rest(fov_y: f64, [width, height]: [u32; 2]) -> Self {
-        let slope = (fov_y / 2.0).tan() * f64::from(width) / f64::from(height);
-        let [right, up, forward] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]];
-        Self { eye: [0.0; 3], forward, right, up, slope, jitter: [0.0; 2] }
+/// Where an image's pixels lie in the picture that the camera takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Raster {
+    /// Columns and rows that there are.
+    pub size: [u32; 2],
+    /// The first of them, counted from the picture's first.
+    pub offset: [i32; 2],
+    /// Columns and rows of the picture.
+    pub picture: [u32; 2],
+    /// Width over height of a pixel.
+    pub aspect: f64,
+}
+
+impl Raster {
+    /// The whole picture, of square pixels.
+    pub fn whole(size: [u32; 2]) -> Self {
+        Self { size, offset: [0; 2], picture: size, aspect: 1.0 }
     }
 
-    /// From `{"o", "fw", "r", "up", "th", "jitter"}`: eye, directions, slope; the jitter may be left out. The error names the key.
+    /// The picture's height over its width.
+    pub fn height_over_width(self) -> f64 {
+        f64::from(self.picture[1]) / (f64::from(self.picture[0]) * self.aspect)
+    }
+
+    /// The tangent of half the horizontal field of view, of the vertical one in radians.
+    pub fn slope_of(self, fov_y: f64) -> f64 {
+        (fov_y / 2.0).tan() / self.height_over_width()
+    }
+
+    /// A place in pixels as (x, y·h/w), −1…1 in x, y up.
+    pub fn point(self, place: [f64; 2]) -> [f64; 2] {
+        let [x, y] = [0, 1].map(|i| 2.0 * (place[i] + f64::from(self.offset[i])) / f64::from(self.picture[i]) - 1.0);
+        [x, -y * self.height_over_width()]
+    }
+
+    /// The place in pixels of (x, y·h/w).
+    pub fn place(self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let point = [x, -y / self.height_over_width()];
+        [0, 1].map(|i| (point[i] + 1.0) * f64::from(self.picture[i]) / 2.0 - f64::from(self.offset[i]))
+    }
+}
+
+impl Camera {
+    /// At the origin, with a vertical field of view in radians, along −Z with +Y up.
+    pub fn at_rest(fov_y: f64, raster: Raster) -> Self {
+        Self::looking([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]], Lens::Perspective(raster.slope_of(fov_y)))
+    }
+
+    /// At the origin, with directions to the right, up and forward.
+    pub fn looking([right, up, forward]: [[f64; 3]; 3], lens: Lens) -> Self {
+        Self { eye: [0.0; 3], forward, right, up, lens, shift: [0.0; 2], jitter: [0.0; 2] }
+    }
+
+    /// From `{"o", "fw", "r", "up", "th", "jitter", "shift"}`: eye, directions, slope; or "ortho" instead of "th". Jitter and shift may be left
+    /// out. The error names the key.
     pub fn from_json(value: &Value) -> Result<Self, String> {
         let vector = |key: &str| numbers(&value[key]).ok_or_else(|| format!("{key} must be three numbers"));
-        let slope = value["th"].as_f64().filter(|th| *th > 0.0).ok_or("th must be a number above 0")?;
-        let jitter = match &value["jitter"] {
-            Value::Null => [0.0; 2],
-            given => numbers(given).ok_or("jitter must be two numbers")?,
+        let positive = |key: &str| value[key].as_f64().filter(|x| *x > 0.0 && x.is_finite());
+        let lens = match (&value["th"], &value["ortho"]) {
+            (Value::Null, given) if !given.is_null() => {
+                Lens::Orthographic(positive("ortho").ok_or("ortho must be a number above 0")?)
+            }
+            _ => Lens::Perspective(positive("th").ok_or("th must be a number above 0")?),
         };
+        let pair = |key: &str| match &value[key] {
+            Value::Null => Ok([0.0; 2]),
+            given => numbers(given).ok_or_else(|| format!("{key} must be two numbers")),
+        };
+        let (jitter, shift) = (pair("jitter")?, pair("shift")?);
         let [eye, forward, right, up] = [vector("o")?, vector("fw")?, vector("r")?, vector("up")?];
-        Ok(Self { eye, forward, right, up, slope, jitter })
+        Ok(Self { eye, forward, right, up, lens, shift, jitter })
     }
 
     pub fn to_json(self) -> Value {
-        let Self { eye, forward, right, up, slope, jitter } = self;
-        json!({ "o": eye, "fw": forward, "r": right, "up": up, "th": slope, "jitter": jitter })
+        let Self { eye, forward, right, up, lens, shift, jitter } = self;
+        let mut json = json!({ "o": eye, "fw": forward, "r": right, "up": up, "jitter": jitter });
+        match lens {
+            Lens::Perspective(slope) => json["th"] = slope.into(),
+            Lens::Orthographic(half_width) => json["ortho"] = half_width.into(),
+        }
+        if shift != [0.0; 2] {
+            json["shift"] = json!(shift);
+        }
+        json
+    }
+
+    /// The number of the lens.
+    pub fn slope(&self) -> f64 {
+        match self.lens {
+            Lens::Perspective(slope) => slope,
+            Lens::Orthographic(half_width) => half_width,
+        }
+    }
+
+    pub fn is_orthographic(&self) -> bool {
+        matches!(self.lens, Lens::Orthographic(_))
+    }
+
+    /// With another number of the lens.
+    pub fn with_slope(self, slope: f64) -> Self {
+        let lens = match self.lens {
+            Lens::Perspective(_) => Lens::Perspective(slope),
+            Lens::Orthographic(_) => Lens::Orthographic(slope),
+        };
+        Self { lens, ..self }
     }
 
     /// The same for the denoiser.
-    pub fn viewpoint(&self, [width, height]: [u32; 2]) -> Viewpoint {
+    pub fn viewpoint(&self, raster: Raster) -> Viewpoint {
         let rows = [self.right, self.up, self.forward];
         let column = |axis: usize| [rows[0][axis], rows[1][axis], rows[2][axis], 0.0].map(|x| x as f32);
         let [x, y, z] = rows.map(|row| -dot(row, self.eye) as f32);
-        let scale = [1.0 / self.slope, f64::from(width) / (f64::from(height) * self.slope)].map(|s| s as f32);
-        let projection =
-            [[scale[0], 0.0, 0.0, 0.0], [0.0, scale[1], 0.0, 0.0], [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, -1.0, 0.0]];
         let view = [column(0), column(1), column(2), [x, y, z, 1.0]];
+        // u and v at the borders of the image.
+        let [left, top] = self.lateral([0.0; 2], raster);
+        let [right, bottom] = self.lateral(raster.size.map(f64::from), raster);
+        let scale = [2.0 / (right - left), 2.0 / (top - bottom)];
+        let middle = [-(right + left) / (right - left), -(top + bottom) / (top - bottom)];
+        let [sx, sy, mx, my] = [scale[0], scale[1], middle[0], middle[1]].map(|x| x as f32);
+        let projection = match self.lens {
+            Lens::Perspective(_) => {
+                [[sx, 0.0, 0.0, 0.0], [0.0, sy, 0.0, 0.0], [mx, my, 1.0, 1.0], [0.0, 0.0, -1.0, 0.0]]
+            }
+            Lens::Orthographic(_) => {
+                [[sx, 0.0, 0.0, 0.0], [0.0, sy, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [mx, my, 0.0, 1.0]]
+            }
+        };
         Matrices { view, projection, jitter: self.jitter.map(|j| j as f32) }.into()
     }
 
-    /// Along the ray of a pixel, as far as one unit along the view axis.
-    pub fn ray(&self, pixel: [u32; 2], [width, height]: [u32; 2]) -> [f64; 3] {
-        let at = |axis: usize| f64::from(pixel[axis]) + 0.5 + self.jitter[axis];
-        let (width, height) = (f64::from(width), f64::from(height));
-        let x = (2.0 * at(0) / width - 1.0) * self.slope;
-        let y = (1.0 - 2.0 * at(1) / height) * self.slope * height / width;
-        std::array::from_fn(|i| self.forward[i] + x * self.right[i] + y * self.up[i])
+    /// u and v of a place in pixels.
+    fn lateral(&self, place: [f64; 2], raster: Raster) -> [f64; 2] {
+        let point = raster.point(place);
+        [0, 1].map(|i| self.slope() * (point[i] + self.shift[i]))
+    }
+
+    fn sampled(&self, pixel: [u32; 2], raster: Raster) -> [f64; 2] {
+        self.lateral([0, 1].map(|i| f64::from(pixel[i]) + 0.5 + self.jitter[i]), raster)
+    }
+
+    /// The point that a pixel sees at a depth.
+    pub fn position(&self, pixel: [u32; 2], depth: f64, raster: Raster) -> [f64; 3] {
+        let [u, v] = self.sampled(pixel, raster);
+        let spread = if self.is_orthographic() { 1.0 } else { depth };
+        std::array::from_fn(|i| self.eye[i] + depth * self.forward[i] + spread * (u * self.right[i] + v * self.up[i]))
+    }
+
+    /// Distance along a pixel's ray in which the depth grows by one.
+    pub fn ray_length(&self, pixel: [u32; 2], raster: Raster) -> f64 {
+        let [u, v] = self.sampled(pixel, raster);
+        if self.is_orthographic() { 1.0 } else { (1.0 + u * u + v * v).sqrt() }
+    }
+
+    /// Where a point is seen, in pixels, and its depth. The place is NaN where it is behind a perspective camera.
+    pub fn project(&self, point: [f64; 3], raster: Raster) -> ([f64; 2], f64) {
+        let offset: [f64; 3] = std::array::from_fn(|i| point[i] - self.eye[i]);
+        let depth = dot(offset, self.forward);
+        let spread = match self.lens {
+            Lens::Orthographic(_) => 1.0,
+            Lens::Perspective(_) if depth > 0.0 => depth,
+            Lens::Perspective(_) => f64::NAN,
+        };
+        let lateral = [dot(offset, self.right) / spread, dot(offset, self.up) / spread];
+        (raster.place([0, 1].map(|i| lateral[i] / self.slope() - self.shift[i])), depth)
     }
 
     /// How far a point at rest, seen in this pixel at this depth, was from there in another camera's image: x right, y down.
     /// NaN where it was behind that camera.
-    pub fn motion_to(&self, before: &Self, pixel: [u32; 2], depth: f64, [width, height]: [u32; 2]) -> [f64; 2] {
-        let ray = self.ray(pixel, [width, height]);
-        let point: [f64; 3] = std::array::from_fn(|i| self.eye[i] + depth * ray[i] - before.eye[i]);
-        let z = dot(point, before.forward);
-        if z <= 0.0 {
-            return [f64::NAN; 2];
-        }
-        let (width, height) = (f64::from(width), f64::from(height));
-        let x = dot(point, before.right) / (z * before.slope);
-        let y = dot(point, before.up) / (z * before.slope) * width / height;
-        let then = [(x + 1.0) * width / 2.0, (1.0 - y) * height / 2.0];
+    pub fn motion_to(&self, before: &Self, pixel: [u32; 2], depth: f64, raster: Raster) -> [f64; 2] {
+        let (then, _) = before.project(self.position(pixel, depth, raster), raster);
         // Without either frame's jitter.
         std::array::from_fn(|i| then[i] - f64::from(pixel[i]) - 0.5 - self.jitter[i])
     }

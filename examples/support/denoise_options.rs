@@ -1,7 +1,9 @@
 //! The command line of `denoise`.
 
 use crate::arguments::{Format, Usage, Value};
-use crate::layers::{Layer, Names};
+use crate::sequence::Source;
+use crate::sequence::layers::{Layer, Mapping, Meaning};
+use asvgf::image_io::{Compression, SampleType};
 use asvgf::{FilterSettings, View};
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
@@ -11,13 +13,13 @@ use std::path::PathBuf;
 pub const HELP: &str = "\
 Denoises a sequence of images that any path tracer has rendered.
 
-Usage: cargo run --release --example denoise -- IN_DIR --out OUT_DIR [OPTIONS]
+Usage: cargo run --release --example denoise -- IN --out OUT_DIR [OPTIONS]
 
-IN_DIR holds frame_0000.exr, frame_0001.exr, … (16- or 32-bit), each with the channels
-  R,G,B                     noisy linear radiance, emission included
+IN is a folder of EXR files with a number in their names (frame_0001.exr, shot.1001.exr,
+0001.exr), any one of them, or a pattern as in DIR/shot.####.exr. Each has some of the channels
+  R,G,B                     noisy linear radiance, emission included; the only ones required
   normal.X,Y,Z              world space, unit; zero where nothing was hit
   depth.Z                   linear, along the view axis; 0 or infinite: nothing was hit
-and, as far as there are any (what is absent is left out of the filter, and told),
   albedo.R,G,B              reflectance, 0…1
   emission.R,G,B            what the visible surface or the sky emits
   motion.X,Y                previous − current position in pixels, x right, y down
@@ -28,22 +30,34 @@ and, as far as there are any (what is absent is left out of the filter, and told
                             it is now; −1 where there is none; at most one in each 3×3
   gradient.previous.R,G,B   what it was in the last frame
   lambda.Y                  or, instead of these two, how much history to drop, 0…1
-The names that Blender (Combined, Denoising Albedo, Denoising Normal, Depth, Vector, …) and
-Mitsuba (sh_normal, depth.T, shape_index, …) use are known too.
-IN_DIR/manifest.json says where the cameras are: {\"cameras\": [{\"o\": eye, \"fw\": forward,
-\"r\": right, \"up\": up, \"th\": tangent of half the horizontal field of view}, …]}.
+The names of Blender (Noisy Image, Combined, Denoising Albedo, Depth, Vector, …), of Mitsuba
+(sh_normal, depth.T, shape_index, …) and of others (rgba, beauty, N, Z, …) are known too.
+What is absent is left out of the filter, or made from what there is, and told.
+docs/sequences.md has a recipe for each renderer.
+manifest.json beside the frames says where the cameras are: {\"cameras\": [{\"o\": eye,
+\"fw\": forward, \"r\": right, \"up\": up, \"th\": tangent of half the horizontal field of
+view}, …]}, and where other shots begin: \"cuts\": [31, …].
 
 Input
   --map LAYER=NAME      where a layer is in the files: the channels NAME.R, NAME.G, NAME.B and
-                        the like, or the one channel NAME. LAYER is color, or what stands
-                        before the dot above. May be given more than once
-  --fov-y DEGREES       vertical field of view, 0.01…179, of a camera that looks along −Z of
-                        the normals' space, where there is no manifest  [derived from the
-                        frames: normals and depth of planes tell, else 45]
+                        the like, the one channel NAME, or a list, color=ch00,ch01,ch02. LAYER
+                        is color, or what stands before the dot above. After a colon, what the
+                        numbers are: motion=NAME:up or :down (y), depth=NAME:ray (along the
+                        pixel's ray) or :axis    [by NAME, as its renderer means it]
+  --layer NAME          view layer to take all channels from
+                        [the first with colour, normals and depth; never Composite]
+  --frames A-B          numbers of the first and the last frame to denoise           [all]
+  --cut N,…             frames that begin another shot     [what manifest.json says, and
+                        frames in which nothing is where it was]
+  --fov-y DEGREES       vertical field of view, 0.01…179, where neither manifest.json nor the
+                        files' attributes tell of cameras  [derived from the frames: normals
+                        and depth of planes tell, else 45]
   --in-place            the gradient's paths are those of the pixels themselves, and so no
                         samples of their own        [what manifest.json says, if anything]
 
 Denoiser
+  --causal              each frame from itself and earlier ones alone, as in real time, in
+                        half the time            [frames see up to 12 … 64 later ones too]
   --preset NAME         default, or classic: the formulas as published       [default]
   --alpha KIND          adaptive, or constant:A with 0…1 as the weight of each new
                         frame (constant alone: 0.2)                         [adaptive]
@@ -57,13 +71,20 @@ Output
                         denoised, lambda, history (its length in frames), alpha,
                         gradient, variance, noisy, albedo, normal, depth, motion,
                         motion-error, non-finite, outliers
-  --format LIST         exr (32-bit floats in R, G, B), png (tone-mapped), or exr,png  [exr]
+  --format LIST         exr, png (tone-mapped), or exr,png                       [exr]
+  --keep-channels       denoised files have all channels and parts of the frame's file, with
+                        other colours                               [R, G, B and its A]
+  --same-names          denoised files are called as the frames are   [denoised_NUMBER.exr]
+  --type KIND           half or float, of denoised files              [as the frame's]
+  --compression KIND    none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab, of denoised
+                        files                                         [as the frame's]
   --exposure X          factor on radiance in PNG files                            [1]
 
   -h, --help            print this
 
-Files are named OUT_DIR/OUTPUT_FRAME.EXT, as in out/denoised_0031.exr. Every frame is looked
-at before the first is written. A table of times goes to standard output.
+Denoised files keep the frame's windows, alpha and attributes. Other outputs are called
+OUT_DIR/OUTPUT_NUMBER.EXT, as in out/lambda_0031.exr. Every frame is looked at before the first is
+written. A table of times goes to standard output.
 `cargo run --release --example score -- OUT_DIR IN_DIR` compares the result with references.
 Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
@@ -95,33 +116,53 @@ pub enum Request {
 
 #[derive(Debug)]
 pub struct Options {
-    pub input: PathBuf,
+    pub source: Source,
     pub out: PathBuf,
-    pub names: Names,
-    /// In radians.
-    pub fov_y: Option<f32>,
     pub in_place: bool,
+    /// Frames do not see later ones.
+    pub causal: bool,
     pub preset: FilterSettings,
     /// `None` for an adaptive α.
     pub constant: Option<f32>,
     pub outputs: Vec<(&'static str, View)>,
     pub formats: Vec<Format>,
+    pub keep_channels: bool,
+    pub same_names: bool,
+    pub sample_type: Option<SampleType>,
+    pub compression: Option<Compression>,
     pub exposure: f32,
 }
+
+/// How a denoised file may be compressed.
+const COMPRESSIONS: [(&str, Compression); 10] = [
+    ("none", Compression::None),
+    ("rle", Compression::Rle),
+    ("zips", Compression::Zips),
+    ("zip", Compression::Zip),
+    ("piz", Compression::Piz),
+    ("pxr24", Compression::Pxr24),
+    ("b44", Compression::B44),
+    ("b44a", Compression::B44a),
+    ("dwaa", Compression::Dwaa),
+    ("dwab", Compression::Dwab),
+];
 
 /// Reads the arguments after the program's name.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, Usage> {
     let (mut input, mut out) = (None, None);
     let mut options = Options {
-        input: PathBuf::new(),
+        source: Source::default(),
         out: PathBuf::new(),
-        names: Names::new(),
-        fov_y: None,
         in_place: false,
+        causal: false,
         preset: FilterSettings::default(),
         constant: None,
         outputs: vec![OUTPUTS[0]],
         formats: vec![Format::Exr],
+        keep_channels: false,
+        same_names: false,
+        sample_type: None,
+        compression: None,
         exposure: 1.0,
     };
     let mut iterations = None;
@@ -136,16 +177,23 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
                 continue;
             }
             lexopt::Arg::Value(text) => {
-                return Err(Usage(format!("{}: a second IN_DIR; one is denoised at a time", text.to_string_lossy())));
+                return Err(Usage(format!("{}: a second IN; one is denoised at a time", text.to_string_lossy())));
             }
             lexopt::Arg::Short(_) => return Err(argument.unexpected().into()),
         };
         let mut value = || Ok::<_, Usage>(Value { text: parser.value()?.string()?, option: name.clone() });
+        let source = &mut options.source;
         match name.as_str() {
             "in-place" => options.in_place = true,
+            "causal" => options.causal = true,
+            "keep-channels" => options.keep_channels = true,
+            "same-names" => options.same_names = true,
             "out" => out = Some(parser.value()?.into()),
-            "map" => options.names.push(value()?.layer()?),
-            "fov-y" => options.fov_y = Some(value()?.number(0.01..=179.0)?.to_radians()),
+            "map" => source.names.push(value()?.mapping()?),
+            "layer" => source.view_layer = Some(value()?.text),
+            "frames" => source.frames = Some(value()?.range()?),
+            "cut" => source.cuts.extend(value()?.list(|v| v.whole(0..=999_999_999))?),
+            "fov-y" => source.fov_y = Some(value()?.number(0.01..=179.0)?.to_radians()),
             "preset" => {
                 let classic = value()?.one_of(&[("default", false), ("classic", true)])?;
                 options.preset = if classic { FilterSettings::classic() } else { FilterSettings::default() };
@@ -158,26 +206,49 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
                 options.outputs = value()?.list(|v| v.one_of(&known))?;
             }
             "format" => options.formats = value()?.list(|v| v.one_of(&[("png", Format::Png), ("exr", Format::Exr)]))?,
+            "type" => {
+                let known = [("half", SampleType::Half), ("float", SampleType::Float)];
+                options.sample_type = Some(value()?.one_of(&known)?);
+            }
+            "compression" => options.compression = Some(value()?.one_of(&COMPRESSIONS)?),
             "exposure" => options.exposure = value()?.number(1e-6..=1e6)?,
             _ => return Err(lexopt::Arg::Long(&name).unexpected().into()),
         }
     }
     options.preset.iterations = iterations.unwrap_or(options.preset.iterations);
     options.preset.outlier_limit = outlier_limit.unwrap_or(options.preset.outlier_limit);
-    options.input = input.ok_or_else(|| Usage("IN_DIR is missing: the folder with the frames".into()))?;
+    options.source.input = input.ok_or_else(|| Usage("IN is missing: the folder with the frames".into()))?;
     options.out = out.ok_or_else(|| Usage("--out OUT_DIR is missing: the folder to write to".into()))?;
     Ok(Request::Denoise(Box::new(options)))
 }
 
 /// What is only said of a sequence.
 impl Value {
-    fn layer(&self) -> Result<(Layer, String), Usage> {
+    fn mapping(&self) -> Result<Mapping, Usage> {
         let parts = self.text.split_once('=').filter(|(_, name)| !name.is_empty());
-        let found = parts.and_then(|(key, name)| {
+        let found = parts.and_then(|(key, names)| {
             let layer = Layer::ALL.into_iter().find(|layer| layer.name() == key)?;
-            Some((layer, name.to_owned()))
+            Some((layer, names))
         });
         let known = || Layer::ALL.map(Layer::name).join(", ");
-        found.ok_or_else(|| self.wrong(format!("must be LAYER=NAME, with LAYER one of {}", known())))
+        let wrong = || self.wrong(format!("must be LAYER=NAME, with LAYER one of {}", known()));
+        let (layer, names) = found.ok_or_else(wrong)?;
+        // Names may have colons themselves: only these words are taken for what the numbers are.
+        let meanings = match layer {
+            Layer::Motion => [(":up", Meaning::Upwards), (":down", Meaning::Same)],
+            _ => [(":ray", Meaning::AlongRay), (":axis", Meaning::Same)],
+        };
+        let meanings = meanings.into_iter().filter(|_| matches!(layer, Layer::Motion | Layer::Depth));
+        let said = meanings.filter_map(|(word, meaning)| Some((names.strip_suffix(word)?, meaning))).next();
+        let (names, meaning) = said.map_or((names, None), |(names, meaning)| (names, Some(meaning)));
+        let names: Vec<String> = names.split(',').map(|name| name.trim().to_owned()).collect();
+        if names.iter().any(String::is_empty) { Err(wrong()) } else { Ok(Mapping { layer, names, meaning }) }
+    }
+
+    fn range(&self) -> Result<[u32; 2], Usage> {
+        let parts = self.text.split_once('-').unwrap_or((&self.text, &self.text));
+        let numbers = parts.0.trim().parse().ok().zip(parts.1.trim().parse().ok());
+        let range = numbers.filter(|(from, to): &(u32, u32)| from <= to).map(|(from, to)| [from, to]);
+        range.ok_or_else(|| self.wrong("must be two numbers of frames, as in 101-148"))
     }
 }

@@ -1,6 +1,6 @@
 //! The path tracer's own frames as a sequence, as `denoise` reads it.
 
-use crate::camera::{Camera, dot};
+use crate::camera::{Camera, Lens, Raster, dot};
 use crate::film::Film;
 use crate::layers::Layer;
 use asvgf::image_io::{self, Channels};
@@ -80,12 +80,13 @@ pub fn write_manifest(folder: &Path, size: [u32; 2], cameras: &[asvgf::Camera]) 
 }
 
 /// The same camera by its directions.
-fn camera(seen: asvgf::Camera, [width, height]: [u32; 2]) -> Camera {
+fn camera(seen: asvgf::Camera, size: [u32; 2]) -> Camera {
     let [eye, target, up] = [seen.eye, seen.target, seen.up].map(|v| v.map(f64::from));
     let forward = unit(std::array::from_fn(|i| target[i] - eye[i]));
     let right = unit(cross(forward, up));
-    let slope = (f64::from(seen.fov_y) / 2.0).tan() * f64::from(width) / f64::from(height);
-    Camera { eye, forward, right, up: cross(right, forward), slope, jitter: seen.jitter.map(f64::from) }
+    let lens = Lens::Perspective(Raster::whole(size).slope_of(seen.fov_y.into()));
+    let directions = [right, cross(right, forward), forward];
+    Camera { eye, jitter: seen.jitter.map(f64::from), ..Camera::looking(directions, lens) }
 }
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

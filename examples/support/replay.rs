@@ -1,20 +1,46 @@
-//! Frames of a sequence on a film, as a host with a renderer of its own hands them in.
+//! Frames of a sequence on a film, as a host with a renderer of its own hands them in, forwards or backwards in time.
 
-use crate::camera::Camera;
+use crate::camera::{Camera, Raster};
+use crate::clean_albedo::CleanAlbedo;
 use crate::film::Film;
 use crate::gpu::Gpu;
-use crate::layers::Layer;
+use crate::sequence::layers::Layer;
+use crate::sequence::motion::{self, Matches};
 use crate::sequence::{Pixels, Sequence};
 use crate::times::PassTimes;
 use asvgf::wgpu::{self, TextureFormat, TextureUsages, TextureView};
 use asvgf::{Error, Gradient, Lambda, Pairs, Shading, Surfaces};
 
-/// What denoising a sequence told.
-pub struct Denoised {
-    /// Of each frame.
-    pub times: Vec<PassTimes>,
-    /// The first frame that was denoised by itself, as it had the noise of the one before.
-    pub repeated: Option<u32>,
+/// A frame that is played, and how it follows the one before.
+pub struct Played<'a> {
+    /// Its place in the sequence.
+    pub index: usize,
+    pub pixels: &'a Pixels,
+    /// Whether it continues the frame that was played before.
+    pub continues: bool,
+}
+
+/// What a frame told.
+pub struct Exposed {
+    pub times: PassTimes,
+    /// It has the noise of the frame before, as so many before it: it was denoised by itself.
+    pub repeated: bool,
+    /// Hardly any of its surfaces was there in the frame before: it was denoised as the first of a shot.
+    pub cut: bool,
+    /// Where motion leads, by all readings of it. Empty if there is nothing to tell.
+    pub readings: Vec<Matches>,
+}
+
+/// Plays frames in one direction of time.
+pub struct Player<'a, 'g> {
+    film: &'a mut Film<'g>,
+    sequence: &'a Sequence,
+    backwards: bool,
+    last: Option<(usize, Pixels)>,
+    seed: FixedSeed,
+    /// The number of the next frame: the denoiser's numbers follow one another, whatever those of the files do.
+    played: u32,
+    albedo: CleanAlbedo<'g>,
 }
 
 /// Whether a renderer takes the same random numbers in each frame, as those with a fixed seed do. One frame that is held tells
@@ -34,29 +60,117 @@ impl FixedSeed {
     }
 }
 
-/// Denoises a sequence, calling back after each frame.
-pub fn denoise(
-    film: &mut Film<'_>,
-    sequence: &Sequence,
-    mut done: impl FnMut(u32, &mut Film<'_>) -> Result<(), Box<dyn std::error::Error>>,
-) -> Result<Denoised, Box<dyn std::error::Error>> {
-    let mut denoised = Denoised { times: Vec::new(), repeated: None };
-    let (mut last, mut seed) = (None::<Pixels>, FixedSeed::default());
-    for frame in sequence.first..=sequence.last {
-        let cameras = [frame, frame.saturating_sub(1).max(sequence.first)].map(|frame| sequence.camera(frame));
-        let pixels = sequence.read(frame)?;
-        let views = Views::new(film.gpu, sequence.size, &pixels, cameras);
-        let repeats = last.is_some_and(|last| repeats_noise(&last, &pixels, sequence.size[0], cameras));
-        // Such frames are one sample, however many there are: an average of them is no better, and looks as if it were.
-        if seed.observe(repeats) {
-            denoised.repeated.get_or_insert(frame);
-            film.denoiser.reset();
+/// Part of the surfaces that are not where motion leads, from which on a frame begins another shot. Fast motion without vectors loses
+/// as much: then a history is worth nothing either.
+const CUT: f64 = 0.95;
+
+impl<'a, 'g> Player<'a, 'g> {
+    pub fn new(film: &'a mut Film<'g>, sequence: &'a Sequence, backwards: bool) -> Self {
+        let albedo = CleanAlbedo::new(film.gpu, sequence.size);
+        Self {
+            film,
+            sequence,
+            backwards,
+            last: None,
+            seed: FixedSeed::default(),
+            played: sequence.files[0].number,
+            albedo,
         }
-        denoised.times.push(expose(film, &views, cameras[0], frame, sequence.in_place)?);
-        done(frame, film)?;
-        last = Some(pixels);
     }
-    Ok(denoised)
+
+    pub fn film(&mut self) -> &mut Film<'g> {
+        self.film
+    }
+
+    /// Denoises a frame and waits for it.
+    pub fn play(&mut self, frame: &Played<'_>) -> Result<Exposed, Error> {
+        let Played { index, pixels, .. } = *frame;
+        let (sequence, raster) = (self.sequence, self.sequence.raster);
+        let last = self.last.take().filter(|_| frame.continues);
+        let before = last.as_ref().map_or(index, |(index, _)| *index);
+        let cameras = [index, before].map(|index| self.camera(index));
+        let motion = self.motion(pixels, last.as_ref().map(|(_, last)| last), cameras);
+        let at = |i: usize| Some([motion[2 * i], motion[2 * i + 1]]).filter(|m| m.iter().all(|x| x.is_finite()));
+        let told = last.as_ref().filter(|_| sequence.has_surfaces());
+        let found = told.map_or(Matches::default(), |(_, last)| motion::matches(pixels, last, raster, at));
+        let cut = found.compared > 0 && found.lost() >= CUT;
+        let readings = match told.filter(|_| sequence.has(Layer::Motion) && !self.backwards) {
+            Some((_, last)) => motion::readings(pixels, last, &motion, raster),
+            None => Vec::new(),
+        };
+        let repeats = last.as_ref().is_some_and(|(_, last)| repeats_noise(last, pixels, raster.size[0], cameras));
+        // Such frames are one sample, however many there are: an average of them is no better, and looks as if it were.
+        let repeated = self.seed.observe(repeats);
+        let begins = last.is_none() || repeated || cut;
+        if begins {
+            self.film.denoiser.reset();
+        }
+        let mut shown = pixels.clone();
+        let known = last.as_ref().filter(|_| !begins).map(|(_, last)| last);
+        self.albedo.clean(&mut shown, known, &motion, cameras[0], raster)?;
+        let views = Views::new(self.film.gpu, sequence, &shown, &motion, self.backwards);
+        let times = expose(self.film, &views, cameras[0], raster, self.played, sequence.in_place)?;
+        self.played += 1;
+        self.last = Some((index, pixels.clone()));
+        Ok(Exposed { times, repeated, cut, readings })
+    }
+
+    /// The camera of a frame. Without depths, all is a wall in front of one that rests.
+    fn camera(&self, index: usize) -> Camera {
+        if self.sequence.has_surfaces() {
+            self.sequence.camera(index)
+        } else {
+            Camera::at_rest(0.8, self.sequence.raster)
+        }
+    }
+
+    /// The motion from a frame to the one that was played before.
+    fn motion(&self, now: &Pixels, last: Option<&Pixels>, cameras: [Camera; 2]) -> Vec<f32> {
+        let size = self.sequence.size;
+        let given = if self.backwards {
+            last.and_then(|next| next.get(Layer::Motion)).map(|motion| inverted(motion, size))
+        } else {
+            now.get(Layer::Motion).map(<[f32]>::to_vec)
+        };
+        if let Some(motion) = given {
+            return motion;
+        }
+        let raster = self.sequence.raster;
+        let pixel = |i: usize| [i as u32 % size[0], i as u32 / size[0]];
+        let [camera, before] = cameras;
+        let at_rest = |(i, &z): (usize, &f32)| camera.motion_to(&before, pixel(i), z.into(), raster).map(|m| m as f32);
+        now.get(Layer::Depth).unwrap_or_default().iter().enumerate().flat_map(at_rest).collect()
+    }
+}
+
+/// Rounds in which a motion is inverted.
+const ROUNDS: usize = 6;
+
+/// The motion to the next frame, n, of the motion m from there: what is at p now is at p + n then, so that n(p) = −m(p + n(p)), solved by
+/// iteration from n = −m.
+fn inverted(motion: &[f32], [width, height]: [u32; 2]) -> Vec<f32> {
+    let (m, _) = motion.as_chunks::<2>();
+    let finite = |m: [f32; 2]| m.map(|x| if x.is_finite() { x } else { 0.0 });
+    let at = |x: i64, y: i64| {
+        let (x, y) = (x.clamp(0, i64::from(width) - 1), y.clamp(0, i64::from(height) - 1));
+        finite(m[y as usize * width as usize + x as usize])
+    };
+    let bilinear = |x: f32, y: f32| {
+        let (left, top) = (x.floor(), y.floor());
+        let (u, v) = (x - left, y - top);
+        let (left, top) = (left as i64, top as i64);
+        let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| at(left + i, top + j));
+        [0, 1].map(|k| (a[k] * (1.0 - u) + b[k] * u) * (1.0 - v) + (c[k] * (1.0 - u) + d[k] * u) * v)
+    };
+    let invert = |i: usize| {
+        let (x, y) = ((i as u32 % width) as f32, (i as u32 / width) as f32);
+        let mut n = finite(m[i]).map(|c| -c);
+        for _ in 0..ROUNDS {
+            n = bilinear(x + n[0], y + n[1]).map(|c| -c);
+        }
+        n
+    };
+    (0..m.len()).flat_map(invert).collect()
 }
 
 /// Pixels at rest that have to show the same noise, of those with light, before it is taken to be repeated.
@@ -106,15 +220,24 @@ struct Views {
 }
 
 impl Views {
-    /// Uploads a frame. Where there is no motion, that of points at rest between the last camera and this one is taken.
-    fn new(gpu: &Gpu, size: [u32; 2], pixels: &Pixels, cameras: [Camera; 2]) -> Self {
-        let mut views = Layer::ALL.map(|layer| pixels.get(layer).map(|samples| upload(gpu, size, layer, samples)));
+    /// Uploads a frame. Backwards, what is known of the last frame is of the next one here, and left out.
+    fn new(gpu: &Gpu, sequence: &Sequence, pixels: &Pixels, motion: &[f32], backwards: bool) -> Self {
+        let size = sequence.size;
+        let forwards = |layer: Layer| {
+            !matches!(
+                layer,
+                Layer::PreviousDepth | Layer::GradientCurrent | Layer::GradientPrevious | Layer::Lambda | Layer::Motion
+            ) || (layer == Layer::PreviousDepth && !sequence.has_surfaces())
+        };
+        let wanted = |layer: Layer| !backwards || forwards(layer);
+        let mut views = Layer::ALL.map(|layer| {
+            let samples = pixels.get(layer).filter(|_| wanted(layer) && layer != Layer::Motion);
+            samples.map(|samples| upload(gpu, size, layer, samples))
+        });
         let (depth, albedo) = surfaces(pixels, size);
         views[Layer::Depth as usize] = Some(upload(gpu, size, Layer::Depth, &depth));
         views[Layer::Albedo as usize] = albedo.map(|albedo| upload(gpu, size, Layer::Albedo, &albedo));
-        let given = views[Layer::Motion as usize].clone();
-        let motion = given.unwrap_or_else(|| upload(gpu, size, Layer::Motion, &motion(size, &depth, cameras)));
-        Self { views: views.into(), motion }
+        Self { views: views.into(), motion: upload(gpu, size, Layer::Motion, motion) }
     }
 
     fn get(&self, layer: Layer) -> Option<&TextureView> {
@@ -123,18 +246,25 @@ impl Views {
 }
 
 /// Denoises a frame and waits for it.
-fn expose(film: &mut Film<'_>, views: &Views, camera: Camera, index: u32, in_place: bool) -> Result<PassTimes, Error> {
+fn expose(
+    film: &mut Film<'_>,
+    views: &Views,
+    camera: Camera,
+    raster: Raster,
+    number: u32,
+    in_place: bool,
+) -> Result<PassTimes, Error> {
     let device = &film.gpu.device;
     film.expose(|denoiser, encoder, target, after| {
         let missing = |view| Error::ViewMissing { view, setting: "a sequence", remedy: "add the layer to its frames" };
         let required = |layer: Layer| views.get(layer).ok_or_else(|| missing(layer.name()));
         let gradient = denoiser.settings().filter.gradient;
-        let camera = camera.viewpoint(denoiser.size());
+        let camera = camera.viewpoint(raster);
         let (depth, normal) = (required(Layer::Depth)?, required(Layer::Normal)?);
         let surfaces = Surfaces {
             previous_depth: views.get(Layer::PreviousDepth),
             instance: views.get(Layer::Id),
-            ..Surfaces::new(camera, index, depth, normal, &views.motion)
+            ..Surfaces::new(camera, number, depth, normal, &views.motion)
         };
         let pairs = views.get(Layer::GradientCurrent).zip(views.get(Layer::GradientPrevious));
         let pairs = pairs.map(|(current, previous)| Pairs { current, previous, in_place });
@@ -188,15 +318,8 @@ const AROUND: i32 = 2;
 /// Part of the emission beyond which what comes with it is light, not rounding.
 const REFLECTED: f32 = 0.02;
 
-/// The motion of points at rest between two cameras, this frame's first.
-fn motion(size: [u32; 2], depth: &[f32], [now, before]: [Camera; 2]) -> Vec<f32> {
-    let pixel = |i: usize| [i as u32 % size[0], i as u32 / size[0]];
-    let motion = |(i, &z): (usize, &f32)| now.motion_to(&before, pixel(i), z.into(), size).map(|m| m as f32);
-    depth.iter().enumerate().flat_map(motion).collect()
-}
-
 /// A layer as a texture of 32-bit floats. Three channels get a fourth, as there are no textures of three.
-fn upload(gpu: &Gpu, size: [u32; 2], layer: Layer, samples: &[f32]) -> TextureView {
+pub fn upload(gpu: &Gpu, size: [u32; 2], layer: Layer, samples: &[f32]) -> TextureView {
     let components = layer.components().len();
     let padded: Vec<f32>;
     let (format, texels) = match components {

@@ -1,12 +1,12 @@
 //! The scores of a denoised sequence that lies in files.
 
-use crate::layers::{Layer, Names};
+use crate::sequence::layers::{self, Layer};
 use crate::sequence::{Pixels, Sequence};
-use asvgf::image_io::{self, Channels};
+use asvgf::image_io::ExrFile;
 use asvgf::metrics::{self, MetricError, Pair};
 use std::error::Error;
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Means over the frames.
 #[derive(Clone, Copy, Debug)]
@@ -38,13 +38,13 @@ impl Frame {
     }
 }
 
-/// Scores `out/denoised_0000.exr`, … against `input/reference_0000.exr`, …
-pub fn score(out: &Path, input: &Path) -> Result<Scores, Box<dyn Error>> {
-    let sequence = Sequence::open(input, Names::new(), None, |_| {})?;
+/// Scores `out/denoised_0000.exr`, …, against `references/reference_0000.exr`, …, the frames of `input`. Either may also be called as the frame is.
+pub fn score(out: &Path, input: &Path, references: &Path) -> Result<Scores, Box<dyn Error>> {
+    let sequence = Sequence::open(input, |_| {})?;
     let mut scores = [const { Vec::new() }; 3];
     let mut before: Option<Frame> = None;
-    for frame in sequence.first..=sequence.last {
-        let now = read(&sequence, out, input, frame)?;
+    for index in 0..sequence.frames() {
+        let now = read(&sequence, out, references, index)?;
         scores[0].push(metrics::relative_mse(&now.pair()?));
         scores[1].push(metrics::bias(&now.pair()?));
         if let Some(before) = &before {
@@ -58,29 +58,46 @@ pub fn score(out: &Path, input: &Path) -> Result<Scores, Box<dyn Error>> {
     Ok(Scores { rel_mse, bias, flicker, frames })
 }
 
-fn read(sequence: &Sequence, out: &Path, input: &Path, frame: u32) -> Result<Frame, Box<dyn Error>> {
-    let pixels = sequence.read(frame)?;
-    let image = colors(sequence, &out.join(format!("denoised_{frame:04}.exr")))?;
-    let reference = colors(sequence, &input.join(format!("reference_{frame:04}.exr")))?;
+fn read(sequence: &Sequence, out: &Path, references: &Path, index: usize) -> Result<Frame, Box<dyn Error>> {
+    let pixels = sequence.read(index)?;
+    let image = colors(sequence, &of_frame(sequence, out, "denoised", index)?)?;
+    let reference = colors(sequence, &of_frame(sequence, references, "reference", index)?)?;
     let depth = pixels.get(Layer::Depth).unwrap_or_default();
     let emission = pixels.get(Layer::Emission);
     let emits = |i: usize| emission.is_some_and(|e| e[3 * i..3 * i + 3].iter().any(|&x| x > 0.0));
-    let counted = depth.iter().enumerate().map(|(i, &z)| z > 0.0 && z.is_finite() && !emits(i)).collect();
+    let counted = depth.iter().enumerate().map(|(i, &z)| z > 0.0 && z < 1e9 && !emits(i)).collect();
     Ok(Frame { pixels, image, reference, counted })
 }
 
-/// R, G and B of a file that belongs to the sequence.
-fn colors(sequence: &Sequence, path: &Path) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {
-    let image: Channels = image_io::read_exr(path)?;
-    let ([width, height], name) = (sequence.size, path.display());
-    if [image.width, image.height] != sequence.size {
-        return Err(
-            format!("{name}: is {}×{} pixels, the frames are {width}×{height}", image.width, image.height).into()
-        );
+/// The file of a frame in another folder: by its number, or by its name.
+fn of_frame(sequence: &Sequence, folder: &Path, kind: &str, index: usize) -> Result<PathBuf, String> {
+    let file = &sequence.files[index];
+    let own = file.path.file_name().unwrap_or_default();
+    let numbered = folder.join(format!("{kind}_{:0>4}.exr", file.digits));
+    let named = folder.join(own);
+    // The frame itself is neither its result nor its reference.
+    let is_other = named.exists() && named.canonicalize().ok() != file.path.canonicalize().ok();
+    match () {
+        () if numbered.exists() => Ok(numbered),
+        () if is_other => Ok(named),
+        () => Err(format!("{}: is missing, and so is {}", numbered.display(), own.display())),
     }
-    let channel = |name: &str| image.get(name).ok_or_else(|| format!("{}: there is no channel {name}", path.display()));
-    let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
-    Ok((0..r.len()).map(|i| [r[i], g[i], b[i]]).collect())
+}
+
+/// The colours of a file that belongs to the sequence, over its window.
+fn colors(sequence: &Sequence, path: &Path) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {
+    let file = ExrFile::read(path)?;
+    let (image, window) = (file.channels(), file.data_window());
+    let fits = window.union(sequence.window) == sequence.window;
+    if !fits {
+        let ([w, h], [width, height], name) = (window.size, sequence.size, path.display());
+        return Err(format!("{name}: is {w}×{h} pixels, the frames are {width}×{height}").into());
+    }
+    let places = layers::find(&Vec::new(), None, &image).map_err(|e| format!("{}: {e}", path.display()))?;
+    let color = places.get(Layer::Color).map(|place| place.channels.clone()).unwrap_or_default();
+    let placed: Vec<Vec<f32>> =
+        color.into_iter().map(|c| window.place(&image.channels[c].1, sequence.window, 0.0)).collect();
+    Ok((0..placed[0].len()).map(|i| [placed[0][i], placed[1][i], placed[2][i]]).collect())
 }
 
 /// For each counted pixel the one of the last frame that its motion leads to, if it is of the same object.

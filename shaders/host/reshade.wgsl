@@ -8,6 +8,8 @@ struct AsvgfCamera {
     jitter_y: f32,
     // Direction through the image point (0, 0), of unit length along `forward`, and its change per pixel.
     corner: vec3<f32>,
+    // 1 for an orthographic view, 0 for a perspective.
+    orthographic: f32,
     du: vec3<f32>,
     inverse_du: f32,
     dv: vec3<f32>,
@@ -63,7 +65,14 @@ fn asvgf_surface(
     // One formula for both, so that a surface at rest is shaded at the same point to the last bit.
     let z = bitcast<f32>(seen.y);
     let point = vec2<f32>(from_pixel) + 0.5 + vec2(camera.jitter_x, camera.jitter_y);
-    let position = camera.eye + z * (camera.corner + point.x * camera.du + point.y * camera.dv);
+    let spread = camera.corner + point.x * camera.du + point.y * camera.dv;
+    // In an orthographic view rays are parallel.
+    let origin = camera.eye + camera.orthographic * (spread - camera.forward);
+    let position = select(
+        camera.eye + z * spread,
+        camera.eye + (spread - camera.forward) + z * camera.forward,
+        camera.orthographic != 0.0,
+    );
     let bits = i32(seen.x);
     let n = vec3<f32>(vec3((bits << 22u) >> 22u, (bits << 12u) >> 22u, (bits << 2u) >> 22u));
     return AsvgfSurface(
@@ -73,6 +82,6 @@ fn asvgf_surface(
         again,
         position + shift,
         n * inverseSqrt(max(dot(n, n), 1.0)),
-        camera.eye,
+        origin,
     );
 }

@@ -2,7 +2,7 @@
 
 // How much the light on a pixel's surface has changed, from the gradient of the strata around it.
 
-#import asvgf::frame::{frame, sample_point, world_position}
+#import asvgf::frame::{frame, sample_point, world_position, scale_at}
 #import asvgf::edge_stop::falloff
 #import asvgf::strata_filter::{PLANE, geometric_exponent, in_grid, site}
 
@@ -40,7 +40,7 @@ fn add_stratum(
     let clamped = clamp(stratum, vec2(0), vec2<i32>(frame.strata) - 1);
     let record = textureLoad(samples, clamped, 0);
     let s = site(record, clamped);
-    let exponent = geometric_exponent(normal, s.position - here, s.normal, PLANE * depth);
+    let exponent = geometric_exponent(normal, s.position - here, s.normal, PLANE * scale_at(frame.camera, depth));
     let tent = max(vec2(0.05), 1.0 - abs(grid - vec2<f32>(stratum)));
     let near = select(0.0, tent.x * tent.y, in_grid(stratum) && record.x != 0u);
     let w = near * falloff(exponent);

@@ -1,8 +1,9 @@
 #define_import_path asvgf::frame
 
-// A perspective camera as the affine map from pixel to ray. `corner + x·du + y·dv` is the direction through the image
-// point (x, y) in pixels (x right, y down, the first pixel's centre at ½, ½), with unit component along `forward`: a
-// linear depth z puts the point at `eye + z·direction`.
+// A camera as an affine map from pixel to ray. `corner + x·du + y·dv` is the direction through the image point (x, y) in pixels (x right,
+// y down, the first pixel's centre at ½, ½), with unit component along `forward`: a linear depth z puts the point at
+// `eye + z·direction`. In an orthographic view all rays are parallel, and what spreads them does not grow with the depth:
+// `eye + z·forward + (direction − forward)`.
 struct Camera {
     eye: vec3<f32>,
     // Where in its pixel a ray goes through the image, from the centre, in pixels.
@@ -10,6 +11,8 @@ struct Camera {
     forward: vec3<f32>,
     jitter_y: f32,
     corner: vec3<f32>,
+    // 1 for an orthographic view, 0 for a perspective.
+    orthographic: f32,
     du: vec3<f32>,
     // 1 / |du|²
     inverse_du: f32,
@@ -72,8 +75,28 @@ struct Frame {
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 
+fn is_orthographic(camera: Camera) -> bool {
+    return camera.orthographic != 0.0;
+}
+
+// Through the image point, as the ray goes in a perspective.
 fn direction(camera: Camera, image_point: vec2<f32>) -> vec3<f32> {
     return camera.corner + image_point.x * camera.du + image_point.y * camera.dv;
+}
+
+// How the point of a pixel moves with its depth.
+fn ray_direction(camera: Camera, image_point: vec2<f32>) -> vec3<f32> {
+    return select(direction(camera, image_point), camera.forward, is_orthographic(camera));
+}
+
+// Where that point is at depth 0.
+fn ray_origin(camera: Camera, image_point: vec2<f32>) -> vec3<f32> {
+    return camera.eye + select(vec3(0.0), direction(camera, image_point) - camera.forward, is_orthographic(camera));
+}
+
+// The length of which tolerances are parts: the depth. In an orthographic view, where the depth tells nothing of sizes, the image's width.
+fn scale_at(camera: Camera, depth: f32) -> f32 {
+    return select(depth, f32(frame.size.x) * inverseSqrt(camera.inverse_du), is_orthographic(camera));
 }
 
 // The image point through which a pixel is sampled.
@@ -82,14 +105,15 @@ fn sample_point(camera: Camera, pixel: vec2<f32>) -> vec2<f32> {
 }
 
 fn world_position(camera: Camera, image_point: vec2<f32>, depth: f32) -> vec3<f32> {
-    return camera.eye + depth * direction(camera, image_point);
+    let d = direction(camera, image_point);
+    return camera.eye + select(depth * d, (d - camera.forward) + depth * camera.forward, is_orthographic(camera));
 }
 
 // (x, y) in pixels and the linear depth of a world position; meaningless where the depth is not positive.
 fn project(camera: Camera, position: vec3<f32>) -> vec3<f32> {
     let offset = position - camera.eye;
     let depth = dot(offset, camera.forward);
-    let d = offset / depth - camera.corner;
+    let d = select(offset / depth, offset - (depth - 1.0) * camera.forward, is_orthographic(camera)) - camera.corner;
     return vec3(dot(d, camera.du) * camera.inverse_du, dot(d, camera.dv) * camera.inverse_dv, depth);
 }
 

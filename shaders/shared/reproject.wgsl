@@ -1,6 +1,6 @@
 #define_import_path asvgf::reproject
 
-#import asvgf::frame::{frame, world_position, sample_point, inside}
+#import asvgf::frame::{frame, world_position, sample_point, inside, scale_at}
 #import asvgf::packing::unpack_normal
 
 // A point of this frame as it was in the previous frame.
@@ -25,8 +25,9 @@ fn same_surface(origin: Origin, tap: vec2<i32>, guide: vec2<u32>, object: u32) -
     let normal = unpack_normal(guide.x);
     let offset = origin.position
         - world_position(frame.previous, sample_point(frame.previous, vec2<f32>(tap)), depth);
-    return abs(dot(normal, offset)) <= 0.01 * depth
-        && dot(offset, offset) <= 0.0025 * depth * depth
+    let scale = scale_at(frame.previous, depth);
+    return abs(dot(normal, offset)) <= 0.01 * scale
+        && dot(offset, offset) <= 0.0025 * scale * scale
         && dot(normal, origin.normal) >= SAME_NORMAL;
 }
 

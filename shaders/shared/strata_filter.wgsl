@@ -1,6 +1,6 @@
 #define_import_path asvgf::strata_filter
 
-#import asvgf::frame::{frame, world_position, sample_point}
+#import asvgf::frame::{frame, world_position, sample_point, scale_at}
 #import asvgf::packing::unpack_normal
 #import asvgf::edge_stop::falloff
 #import asvgf::strata::sample_pixel
@@ -38,7 +38,7 @@ fn tap_weight(center: Site, other: Site, offset: vec2<i32>, stride: i32) -> f32 
         center.normal,
         other.position - center.position,
         other.normal,
-        PLANE * center.depth * f32(stride),
+        PLANE * scale_at(frame.camera, center.depth) * f32(stride),
     );
     return tent(offset) * falloff(exponent);
 }

@@ -32,7 +32,7 @@ mod growth;
 mod hash;
 #[path = "../../examples/report/keep.rs"]
 mod keep;
-#[path = "../../examples/support/layers.rs"]
+#[path = "../../examples/support/sequence/layers.rs"]
 mod layers;
 #[path = "../../examples/report/measure.rs"]
 mod measure;

@@ -4,9 +4,9 @@ use crate::export::{self, Export};
 use crate::film::Film;
 use crate::folder::{Folder, add, wall};
 use crate::gpu::Gpu;
-use crate::layers::{Layer, Names};
+use crate::layers::Layer;
 use crate::sequence::Sequence;
-use crate::{replay, scoring, tracing};
+use crate::{look_ahead, scoring, tracing};
 use asvgf::image_io::write_exr_rgb;
 use asvgf::scene::{GpuScene, builtin};
 use asvgf::{Camera, FilterSettings, Gradient, Settings, View};
@@ -28,8 +28,8 @@ fn told(sequence: &Sequence, settings: Settings) -> (Vec<Vec<[f32; 3]>>, Option<
     let gpu = Gpu::new().unwrap();
     let mut film = Film::new(&gpu, sequence.size, settings).unwrap();
     let mut frames = Vec::new();
-    let denoised = replay::denoise(&mut film, sequence, |_, film| {
-        frames.push(film.numbers(View::Denoised)?);
+    let denoised = look_ahead::denoise(&mut film, None, sequence, &mut |_, image, _, _| {
+        frames.push(image.to_vec());
         Ok(())
     });
     let denoised = denoised.unwrap();
@@ -256,12 +256,12 @@ fn another_renderers_frames_come_as_close_to_the_truth_as_they_should() {
         return;
     }
     let out = Folder::new();
-    let sequence = Sequence::open(&input, Names::new(), None, |_| {}).unwrap();
+    let sequence = Sequence::open(input.as_path(), |_| {}).unwrap();
     for (i, frame) in denoised(&sequence, with_gradient(Gradient::Pairs)).iter().enumerate() {
         let [width, height] = sequence.size;
         write_exr_rgb(out.0.join(format!("denoised_{i:04}.exr")), width, height, frame).unwrap();
     }
-    let scores = scoring::score(&out.0, &input).unwrap();
+    let scores = scoring::score(&out.0, &input, &input).unwrap();
     println!("{scores}");
     assert!(scores.rel_mse <= 0.0037 && scores.bias.abs() <= 0.015 && scores.flicker <= 0.065, "{scores}");
 }

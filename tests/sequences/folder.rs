@@ -1,6 +1,6 @@
 //! A folder with a sequence under construction.
 
-use crate::layers::{Layer, Names};
+use crate::layers::Layer;
 use crate::sequence::{Sequence, SequenceError};
 use asvgf::image_io::{Channels, write_exr};
 use std::fs;
@@ -33,7 +33,7 @@ impl Folder {
     }
 
     pub fn open(&self) -> Result<Sequence, SequenceError> {
-        Sequence::open(&self.0, Names::new(), None, |_| {})
+        Sequence::open(self.0.as_path(), |_| {})
     }
 }
 

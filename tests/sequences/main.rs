@@ -6,8 +6,8 @@
 mod arguments;
 #[path = "../../examples/support/camera.rs"]
 mod camera;
-#[path = "../../examples/support/camera_fit.rs"]
-mod camera_fit;
+#[path = "../../examples/support/clean_albedo.rs"]
+mod clean_albedo;
 #[path = "../../examples/support/denoise_options.rs"]
 mod denoise_options;
 #[path = "../../examples/support/export.rs"]
@@ -16,22 +16,31 @@ mod export;
 mod film;
 #[path = "../../examples/support/gpu.rs"]
 mod gpu;
-#[path = "../../examples/support/layers.rs"]
-mod layers;
+#[path = "../../examples/support/look_ahead.rs"]
+mod look_ahead;
+#[path = "../../examples/support/output.rs"]
+mod output;
 #[path = "../../examples/support/replay.rs"]
 mod replay;
 #[path = "../../examples/support/scoring.rs"]
 mod scoring;
-#[path = "../../examples/support/sequence.rs"]
+#[path = "../../examples/support/sequence/mod.rs"]
 mod sequence;
+#[path = "../../examples/support/summary.rs"]
+mod summary;
 #[path = "../../examples/support/times.rs"]
 mod times;
+#[path = "../../examples/support/tone.rs"]
+mod tone;
 #[path = "../../examples/support/tracing.rs"]
 mod tracing;
+
+use sequence::layers;
 
 mod cameras;
 mod command_line;
 mod filtering;
 mod folder;
+mod forms;
 mod names;
 mod refusals;

@@ -1,12 +1,13 @@
 //! Names that other renderers have for the channels.
 
 use crate::folder::{Folder, add, rename, wall};
-use crate::layers::{Layer, Names};
-use crate::sequence::{Sequence, SequenceError};
+use crate::layers::{Layer, Mapping};
+use crate::sequence::{Sequence, SequenceError, Source};
 
 fn open(folder: &Folder, names: &[(Layer, &str)]) -> Result<Sequence, SequenceError> {
-    let names: Names = names.iter().map(|&(layer, name)| (layer, name.to_owned())).collect();
-    Sequence::open(&folder.0, names, Some(1.0), |_| {})
+    let mapping = |&(layer, name): &(Layer, &str)| Mapping { layer, names: vec![name.to_owned()], meaning: None };
+    let names = names.iter().map(mapping).collect();
+    Sequence::open(Source { names, fov_y: Some(1.0), ..Source::from(folder.0.as_path()) }, |_| {})
 }
 
 #[test]
@@ -29,7 +30,7 @@ fn blenders() {
     let sequence = open(&folder, &[]).unwrap();
     let found = [Layer::Color, Layer::Albedo, Layer::Normal, Layer::Depth, Layer::Motion];
     assert_eq!(sequence.layers, found);
-    let pixels = sequence.read(7).unwrap();
+    let pixels = sequence.read(0).unwrap();
     assert_eq!(&pixels.get(Layer::Albedo).unwrap()[..3], [0.25, 0.5, 0.75]);
     // Blender's y points up.
     assert_eq!(&pixels.get(Layer::Motion).unwrap()[..2], [1.5, -2.5]);
@@ -63,7 +64,7 @@ fn a_users_own() {
         rename(&mut image, from, to);
     }
     folder.write(0, &image);
-    assert!(open(&folder, &[(Layer::Albedo, "base")]).unwrap_err().to_string().contains("there is no channel depth.Z"));
+    assert_eq!(open(&folder, &[(Layer::Albedo, "base")]).unwrap().layers, [Layer::Color, Layer::Albedo, Layer::Normal]);
     let sequence = open(&folder, &[(Layer::Albedo, "base"), (Layer::Depth, "far")]).unwrap();
     assert_eq!(sequence.layers, [Layer::Color, Layer::Albedo, Layer::Normal, Layer::Depth]);
     let error = open(&folder, &[(Layer::Albedo, "bass"), (Layer::Depth, "far")]).unwrap_err().to_string();

@@ -13,7 +13,7 @@ fn assert_refused(folder: &Folder, file: &str, reason: &str) {
 #[test]
 fn a_whole_sequence_is_accepted() {
     let sequence = Folder::with_frames().open().unwrap();
-    assert_eq!((sequence.first, sequence.last, sequence.size), (0, 2, [6, 4]));
+    assert_eq!((sequence.frames(), sequence.files[2].number, sequence.size), (3, 2, [6, 4]));
     assert_eq!(sequence.layers, [Layer::Color, Layer::Normal, Layer::Depth]);
 }
 
@@ -26,13 +26,6 @@ fn no_folder_and_no_frames() {
 }
 
 #[test]
-fn a_missing_frame() {
-    let folder = Folder::with_frames();
-    fs::remove_file(folder.0.join("frame_0001.exr")).unwrap();
-    assert_refused(&folder, "frame_0001.exr", "is missing, and there are frames from 0 to 2");
-}
-
-#[test]
 fn mixed_sizes() {
     let folder = Folder::with_frames();
     folder.write(2, &wall([4, 6]));
@@ -41,15 +34,12 @@ fn mixed_sizes() {
 
 #[test]
 fn absent_channels() {
-    for layer in [Layer::Color, Layer::Normal, Layer::Depth] {
-        let folder = Folder::with_frames();
-        let mut image = wall([6, 4]);
-        let names = layer.channels();
-        image.channels.retain(|(name, _)| !names.contains(name));
-        folder.write(0, &image);
-        assert_refused(&folder, "frame_0000.exr", &format!("there is no channel {}", names.join(", ")));
-        assert_refused(&folder, "frame_0000.exr", &format!("say --map {}=NAME", layer.name()));
-    }
+    let folder = Folder::with_frames();
+    let mut image = wall([6, 4]);
+    image.channels.retain(|(name, _)| !["R", "G", "B"].contains(&name.as_str()));
+    folder.write(0, &image);
+    assert_refused(&folder, "frame_0000.exr", "there is no channel R, G, B");
+    assert_refused(&folder, "frame_0000.exr", "say --map color=NAME");
     let folder = Folder::with_frames();
     let mut image = wall([6, 4]);
     add(&mut image, Layer::Albedo, &[0.5; 3]);

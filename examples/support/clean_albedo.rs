@@ -1,0 +1,179 @@
+//! An albedo that is noisy itself, denoised before it divides.
+//!
+//! Failure: Cycles' albedo of a metal is that of what one path saw in it, with zeros and values above 10; light over that is noise of its own, and
+//! the metal of `blender_room` had twice the error. Reason: radiance and albedo are two random numbers of one path, and the quotient of their means is the smooth
+//! thing, not the mean of their quotients. Rule: where an albedo changes from frame to frame beyond what lies around it, it is averaged as light is,
+//! with stops that are tighter because its noise is less.
+
+use crate::camera::{Camera, Raster, dot};
+use crate::film::Film;
+use crate::gpu::Gpu;
+use crate::replay::upload;
+use crate::sequence::Pixels;
+use crate::sequence::layers::Layer;
+use asvgf::{Error, FilterSettings, Gradient, Settings, Shading, Surfaces, View};
+
+/// σ of the luminance stop for an albedo.
+const SIGMA_LUMINANCE: f32 = 0.5;
+
+/// Pixels to each side over which noise is counted.
+const AROUND: usize = 3;
+
+/// Part of the pixels around that are off, from which on an albedo is noise in part, and wholly. Independent noise is off in one of five.
+const NOISY: [f32; 2] = [0.05, 0.10];
+
+/// Denoises the albedo of a sequence, if there is any need.
+pub struct CleanAlbedo<'g> {
+    gpu: &'g Gpu,
+    size: [u32; 2],
+    film: Option<Film<'g>>,
+    played: u32,
+}
+
+/// How a frame is seen, and how it follows the last one.
+struct Frame<'a> {
+    camera: Camera,
+    raster: Raster,
+    motion: &'a [f32],
+    continues: bool,
+}
+
+impl<'g> CleanAlbedo<'g> {
+    pub fn new(gpu: &'g Gpu, size: [u32; 2]) -> Self {
+        Self { gpu, size, film: None, played: 0 }
+    }
+
+    /// Cleans a frame's albedo, with what the last frame's was along the motion.
+    pub fn clean(
+        &mut self,
+        now: &mut Pixels,
+        last: Option<&Pixels>,
+        motion: &[f32],
+        camera: Camera,
+        raster: Raster,
+    ) -> Result<(), Error> {
+        let Some(albedo) = now.get(Layer::Albedo).map(<[f32]>::to_vec) else { return Ok(()) };
+        let noise = noise(now, &albedo, last, motion, self.size);
+        if self.film.is_none() && noise.iter().all(|&part| part <= NOISY[0]) {
+            return Ok(());
+        }
+        let view = Frame { camera, raster, motion, continues: last.is_some() };
+        let clean = self.denoise(now, &albedo, &view)?;
+        let mixed = albedo.as_chunks::<3>().0.iter().zip(&clean).zip(&noise).flat_map(|((given, clean), &part)| {
+            let weight = ((part - NOISY[0]) / (NOISY[1] - NOISY[0])).clamp(0.0, 1.0);
+            let given = given.map(|x| if x.is_finite() { x } else { 1.0 });
+            std::array::from_fn::<f32, 3, _>(|c| {
+                if weight > 0.0 { given[c] + weight * (clean[c] - given[c]) } else { given[c] }
+            })
+        });
+        let mixed = mixed.collect();
+        now.set(Layer::Albedo, Some(mixed));
+        Ok(())
+    }
+
+    fn denoise(&mut self, now: &Pixels, albedo: &[f32], frame: &Frame<'_>) -> Result<Vec<[f32; 3]>, Error> {
+        let mut film = match self.film.take() {
+            Some(film) => film,
+            None => Film::new(self.gpu, self.size, settings())?,
+        };
+        if !frame.continues {
+            film.denoiser.reset();
+        }
+        let texture = |layer: Layer, samples: &[f32]| upload(self.gpu, self.size, layer, samples);
+        let given = |layer: Layer| now.get(layer).map(|samples| texture(layer, samples));
+        let depth = texture(Layer::Depth, now.get(Layer::Depth).unwrap_or_default());
+        let normal = texture(Layer::Normal, now.get(Layer::Normal).unwrap_or_default());
+        let (motion, color, id) =
+            (texture(Layer::Motion, frame.motion), texture(Layer::Albedo, albedo), given(Layer::Id));
+        let (device, number) = (&self.gpu.device, self.played);
+        film.expose(|denoiser, encoder, target, after| {
+            let camera = frame.camera.viewpoint(frame.raster);
+            let surfaces =
+                Surfaces { instance: id.as_ref(), ..Surfaces::new(camera, number, &depth, &normal, &motion) };
+            denoiser.begin_frame_stepwise(device, encoder, &surfaces, &mut *after)?;
+            denoiser.denoise_stepwise(device, encoder, &Shading::new(&color, target), after)
+        })?;
+        self.played += 1;
+        let clean = film.numbers(View::Denoised)?;
+        self.film = Some(film);
+        Ok(clean)
+    }
+}
+
+fn settings() -> Settings {
+    let filter = FilterSettings {
+        gradient: Gradient::Statistics,
+        sigma_luminance: SIGMA_LUMINANCE,
+        outlier_limit: 0.0,
+        ..FilterSettings::default()
+    };
+    Settings { filter, ..Settings::adaptive() }
+}
+
+/// Of each pixel, the part of the pixels around whose albedo is noise: not a number of 0…1, or not within what the 3×3 pixels of its surface were in
+/// the last frame. A texture that moves stays within them.
+fn noise(
+    pixels: &Pixels,
+    albedo: &[f32],
+    last: Option<&Pixels>,
+    motion: &[f32],
+    [width, height]: [u32; 2],
+) -> Vec<f32> {
+    let [width, height] = [width, height].map(|side| side as usize);
+    let (now, _) = albedo.as_chunks::<3>();
+    let is_same = |last: &Pixels, i: usize, j: usize| {
+        let normals = [three(pixels, Layer::Normal, i), three(last, Layer::Normal, j)].map(|n| n.map(f64::from));
+        one(pixels, Layer::Id, i) == one(last, Layer::Id, j)
+            && (one(last, Layer::Depth, j) / one(pixels, Layer::Depth, i) - 1.0).abs() < 0.1
+            && dot(normals[0], normals[1]) > 0.8
+    };
+    let is_off = |i: usize| {
+        let a = now[i];
+        if a.iter().any(|x| !x.is_finite() || *x > 1.05) {
+            return true;
+        }
+        let Some(last) = last else { return false };
+        let place = [(i % width) as f32 + motion[2 * i], (i / width) as f32 + motion[2 * i + 1]].map(f32::round);
+        if !(place[0] >= 0.0 && place[1] >= 0.0 && place[0] < width as f32 && place[1] < height as f32) {
+            return false;
+        }
+        let near = |at: f32, side: usize| (at as usize).saturating_sub(1)..=(at as usize + 1).min(side - 1);
+        let (mut low, mut high, mut count) = ([f32::MAX; 3], [f32::MIN; 3], 0);
+        for y in near(place[1], height) {
+            for x in near(place[0], width).filter(|x| is_same(last, i, y * width + x)) {
+                let there = three(last, Layer::Albedo, y * width + x);
+                low = std::array::from_fn(|c| low[c].min(there[c]));
+                high = std::array::from_fn(|c| high[c].max(there[c]));
+                count += 1;
+            }
+        }
+        // 2 % of rounding and of sampling between pixels. Few pixels tell little of what lies between.
+        count >= 6 && (0..3).any(|c| a[c] < 0.98 * low[c] - 0.02 || a[c] > 1.02 * high[c] + 0.02)
+    };
+    let off: Vec<f32> = (0..now.len()).map(|i| f32::from(u8::from(is_off(i)))).collect();
+    // A mean over a square: rows first.
+    let row = |i: usize| {
+        let (x, start) = (i % width, i - i % width);
+        let range = x.saturating_sub(AROUND)..=(x + AROUND).min(width - 1);
+        (range.clone().map(|x| off[start + x]).sum::<f32>(), range.count() as f32)
+    };
+    let rows: Vec<(f32, f32)> = (0..off.len()).map(row).collect();
+    let column = |i: usize| {
+        let (x, y) = (i % width, i / width);
+        let range = y.saturating_sub(AROUND)..=(y + AROUND).min(height - 1);
+        let (sum, count) = range.map(|y| rows[y * width + x]).fold((0.0, 0.0), |(s, n), (t, m)| (s + t, n + m));
+        sum / count
+    };
+    (0..off.len()).map(column).collect()
+}
+
+/// A layer's number in a pixel, 0 if there is none.
+fn one(pixels: &Pixels, layer: Layer, i: usize) -> f32 {
+    pixels.get(layer).and_then(|samples| samples.get(i).copied()).unwrap_or_default()
+}
+
+/// A layer's three numbers in a pixel.
+fn three(pixels: &Pixels, layer: Layer, i: usize) -> [f32; 3] {
+    let samples = pixels.get(layer).unwrap_or_default();
+    std::array::from_fn(|c| samples.get(3 * i + c).copied().unwrap_or_default())
+}

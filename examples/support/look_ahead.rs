@@ -1,0 +1,169 @@
+//! Frames denoised with those before and those after them.
+//!
+//! A frame of an animation has a future. Played backwards, a sequence gives each frame a second history, of what comes after it: the first frames have one
+//! at last, and where light has just changed the future knows the new light. Both results are weighted by their history lengths, n and m: each is an
+//! average of as many samples, so that n/(n + m) and m/(n + m) give the least variance (Gauss). In real time there is no future: this is for files alone.
+
+use crate::film::Film;
+use crate::replay::{Exposed, Played, Player};
+use crate::sequence::layers::Layer;
+use crate::sequence::motion::{self, Matches};
+use crate::sequence::{Break, Pixels, Sequence};
+use crate::times::PassTimes;
+use asvgf::{FilterSettings, Gradient, Settings, View};
+use std::error::Error;
+
+/// What denoising a sequence told. Frames by their numbers.
+#[derive(Default)]
+pub struct Denoised {
+    /// Of each frame, forwards.
+    pub times: Vec<PassTimes>,
+    /// The first frame that was denoised by itself, as it had the noise of the one before.
+    pub repeated: Option<u32>,
+    /// Frames that were found to begin another shot.
+    pub cuts: Vec<u32>,
+    /// What seems wrong with the motion.
+    pub complaint: Option<String>,
+}
+
+/// Memory that the results of a run backwards may take, in bytes.
+const MEMORY: usize = 512 << 20;
+
+/// Most and fewest frames that are played backwards in one go.
+const STRETCH: [usize; 2] = [4, 64];
+
+/// Frames after a stretch with which its last frame's history begins.
+const BEYOND: usize = 12;
+
+/// A result with its history lengths.
+struct Seen {
+    image: Vec<[f32; 3]>,
+    lengths: Vec<f32>,
+}
+
+/// Where the run backwards leaves its results.
+struct Behind {
+    /// The first frame of the stretch, and its results.
+    first: usize,
+    seen: Vec<Option<Seen>>,
+}
+
+/// A denoised frame, by its place, with the film that holds its other images.
+pub type Done<'a> = dyn FnMut(usize, &[[f32; 3]], &Pixels, &mut Film<'_>) -> Result<(), Box<dyn Error>> + 'a;
+
+/// Denoises a sequence, calling back after each frame. With settings for a run backwards, frames see what comes after them.
+pub fn denoise(
+    film: &mut Film<'_>,
+    ahead: Option<&Settings>,
+    sequence: &Sequence,
+    done: &mut Done<'_>,
+) -> Result<Denoised, Box<dyn Error>> {
+    let gpu = film.gpu;
+    let mut denoised = Denoised::default();
+    let mut readings: Vec<Matches> = Vec::new();
+    let mut behind = match ahead.filter(|_| sequence.frames() > 1) {
+        Some(settings) => Some((Film::new(gpu, sequence.size, settings.clone())?, None::<Behind>)),
+        None => None,
+    };
+    let mut player = Player::new(film, sequence, false);
+    for index in 0..sequence.frames() {
+        if let Some((film, kept)) = &mut behind
+            && kept.as_ref().is_none_or(|kept| index >= kept.first + kept.seen.len())
+        {
+            *kept = Some(backwards(film, sequence, index)?);
+        }
+        let pixels = sequence.read(index)?;
+        let continues = index > 0 && sequence.breaks[index].is_none();
+        let exposed = player.play(&Played { index, pixels: &pixels, continues })?;
+        let number = sequence.files[index].number;
+        if exposed.cut {
+            denoised.cuts.push(number);
+        }
+        if exposed.repeated {
+            denoised.repeated.get_or_insert(number);
+        }
+        add(&mut readings, &exposed);
+        denoised.times.push(exposed.times);
+        let film = player.film();
+        let mut image = film.numbers(View::Denoised)?;
+        let later = behind.as_mut().and_then(|(_, kept)| {
+            let kept = kept.as_mut()?;
+            kept.seen.get_mut(index - kept.first)?.take()
+        });
+        if let Some(later) = later {
+            blend(&mut image, &lengths(film)?, &later);
+        }
+        done(index, &image, &pixels, film)?;
+    }
+    denoised.complaint = motion::complaint(&readings);
+    Ok(denoised)
+}
+
+/// The settings of a run backwards: what is repeated or known of a frame's own past says nothing of its future.
+pub fn settings(forwards: &Settings) -> Settings {
+    let gradient = match forwards.filter.gradient {
+        Gradient::Off => Gradient::Off,
+        _ => Gradient::Statistics,
+    };
+    Settings { filter: FilterSettings { gradient, ..forwards.filter.clone() }, ..forwards.clone() }
+}
+
+/// Plays the stretch that begins with a frame backwards, from some frames beyond its end on.
+fn backwards(film: &mut Film<'_>, sequence: &Sequence, first: usize) -> Result<Behind, Box<dyn Error>> {
+    let frames = sequence.frames();
+    let bytes = (sequence.size[0] * sequence.size[1]) as usize * size_of::<[f32; 4]>();
+    let stretch = (MEMORY / bytes.max(1)).clamp(STRETCH[0], STRETCH[1]).min(frames - first);
+    let breaks = |index: usize| sequence.breaks.get(index).is_some_and(Option::is_some);
+    let end = (first + stretch..(first + stretch + BEYOND).min(frames)).find(|&index| breaks(index));
+    let end = end.unwrap_or((first + stretch + BEYOND).min(frames));
+    let mut seen: Vec<Option<Seen>> = Vec::new();
+    seen.resize_with(stretch, || None);
+    film.denoiser.reset();
+    let mut player = Player::new(film, sequence, true);
+    for index in (first..end).rev() {
+        let pixels = sequence.read(index)?;
+        let continues = index + 1 < end && !breaks(index + 1);
+        player.play(&Played { index, pixels: &pixels, continues })?;
+        if index < first + stretch {
+            let film = player.film();
+            seen[index - first] = Some(Seen { image: film.numbers(View::Denoised)?, lengths: lengths(film)? });
+        }
+    }
+    Ok(Behind { first, seen })
+}
+
+fn lengths(film: &mut Film<'_>) -> Result<Vec<f32>, asvgf::Error> {
+    Ok(film.numbers(View::HistoryLength)?.into_iter().map(|[length, ..]| length).collect())
+}
+
+/// The mean of two averages of n and m samples. Where there is neither, nothing was averaged, and both are the sample itself.
+fn blend(image: &mut [[f32; 3]], lengths: &[f32], later: &Seen) {
+    let pixels = image.iter_mut().zip(&later.image);
+    for ((now, then), (n, m)) in pixels.zip(lengths.iter().zip(&later.lengths)) {
+        let weight = if n + m > 0.0 { m / (n + m) } else { 0.0 };
+        if weight > 0.0 {
+            *now = std::array::from_fn(|c| now[c] + weight * (then[c] - now[c]));
+        }
+    }
+}
+
+fn add(sums: &mut Vec<Matches>, exposed: &Exposed) {
+    if sums.is_empty() {
+        sums.clone_from(&exposed.readings);
+        return;
+    }
+    sums.iter_mut().zip(&exposed.readings).for_each(|(sum, reading)| sum.add(*reading));
+}
+
+/// Whether anything tells where surfaces were: motion, or a camera that moves before them.
+pub fn follows(sequence: &Sequence) -> bool {
+    sequence.has(Layer::Motion) || (sequence.has_surfaces() && sequence.cameras.len() > 1)
+}
+
+/// Words for why a frame begins anew.
+pub fn reason(broken: Break) -> &'static str {
+    match broken {
+        Break::Gap => "frames are missing before it",
+        Break::Cut => "a cut",
+    }
+}

@@ -1,0 +1,96 @@
+//! Denoised frames as files: what came in comes out, but for the noise.
+
+use crate::arguments::Format;
+use crate::denoise_options::Options;
+use crate::film::Film;
+use crate::sequence::Sequence;
+use crate::tone;
+use asvgf::View;
+use asvgf::image_io::{self, ExrFile};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// Writes the images of a frame in each format.
+pub fn write(
+    options: &Options,
+    sequence: &Sequence,
+    index: usize,
+    denoised: &[[f32; 3]],
+    film: &mut Film<'_>,
+) -> Result<(), Box<dyn Error>> {
+    let [width, height] = sequence.size;
+    for &(name, view) in &options.outputs {
+        for &format in &options.formats {
+            let path = path(options, sequence, index, name, format);
+            match (format, view) {
+                (Format::Exr, View::Denoised) => write_denoised(options, sequence, index, denoised, &path)?,
+                (Format::Exr, _) => image_io::write_exr_rgb(path, width, height, &film.numbers(view)?)?,
+                (Format::Png, View::Denoised) => {
+                    let pixels: Vec<_> = denoised.iter().map(|&color| tone::pixel(color, options.exposure)).collect();
+                    image_io::write_png(path, width, height, &pixels)?;
+                }
+                (Format::Png, _) => {
+                    image_io::write_png(path, width, height, &film.picture(view, options.exposure)?)?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Where an image of a frame goes.
+fn path(options: &Options, sequence: &Sequence, index: usize, name: &str, format: Format) -> PathBuf {
+    let file = &sequence.files[index];
+    let extension = match format {
+        Format::Png => "png",
+        Format::Exr => "exr",
+    };
+    if options.same_names && name == "denoised" {
+        let stem = file.path.file_name().unwrap_or_default();
+        return options.out.join(stem).with_extension(extension);
+    }
+    options.out.join(format!("{name}_{:0>4}.{extension}", file.digits))
+}
+
+/// The frame's file with other colours: as it was, or with these and its alpha alone.
+fn write_denoised(
+    options: &Options,
+    sequence: &Sequence,
+    index: usize,
+    denoised: &[[f32; 3]],
+    path: &Path,
+) -> Result<(), Box<dyn Error>> {
+    let file = sequence.file(index)?;
+    let names = sequence.color_names(index, &file)?;
+    let window = file.data_window();
+    let place = |c: usize| {
+        let samples: Vec<f32> = denoised.iter().map(|pixel| pixel[c]).collect();
+        sequence.window.place(&samples, window, 0.0)
+    };
+    let mut written = if options.keep_channels {
+        let mut whole = file;
+        let colors: Vec<_> = names.iter().enumerate().map(|(c, name)| (name.clone(), place(c))).collect();
+        whole.replace(&colors);
+        whole
+    } else {
+        let mut channels: Vec<(String, Vec<f32>)> =
+            ["R", "G", "B"].iter().enumerate().map(|(c, name)| ((*name).to_owned(), place(c))).collect();
+        channels.extend(alpha(&file, &names[0]).map(|samples| ("A".to_owned(), samples)));
+        file.with_channels(&names[0], &channels)
+    };
+    if let Some(sample_type) = options.sample_type {
+        written.set_sample_type(sample_type);
+    }
+    if let Some(compression) = options.compression {
+        written.set_compression(compression);
+    }
+    written.write(path)?;
+    Ok(())
+}
+
+/// The coverage beside a colour, by the name of its first channel.
+fn alpha(file: &ExrFile, color: &str) -> Option<Vec<f32>> {
+    let front = color.rsplit_once('.').map_or(String::new(), |(front, _)| format!("{front}."));
+    let image = file.channels();
+    ["A", "a"].iter().find_map(|name| image.get(&format!("{front}{name}")).map(<[f32]>::to_vec))
+}

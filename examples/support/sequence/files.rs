@@ -1,0 +1,170 @@
+//! The files of a sequence: which belong together, and in which order.
+
+use super::{SequenceError, wrong};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file with the number of its frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameFile {
+    pub number: u32,
+    /// The number as the name has it, zeros in front included.
+    pub digits: String,
+    pub path: PathBuf,
+}
+
+/// The names of a sequence but for the number.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Template {
+    before: String,
+    after: String,
+}
+
+impl Template {
+    fn display(&self) -> String {
+        format!("{}####{}", self.before, self.after)
+    }
+}
+
+/// Longest number in a name: more digits are a date or a checksum.
+const MOST_DIGITS: usize = 9;
+
+/// What stands in front of the numbers of files that are results or references, not frames.
+const NOT_FRAMES: [&str; 16] = [
+    "denoised",
+    "reference",
+    "lambda",
+    "history",
+    "alpha",
+    "gradient",
+    "variance",
+    "noisy",
+    "albedo",
+    "normal",
+    "depth",
+    "motion",
+    "motion-error",
+    "non-finite",
+    "outliers",
+    "light",
+];
+
+/// The frames of a folder, of a pattern (`shot.####.exr`), or of the sequence that a file belongs to, in order.
+pub fn list(input: &Path) -> Result<Vec<FrameFile>, SequenceError> {
+    let (folder, wanted) = if input.is_dir() {
+        (input.to_owned(), None)
+    } else {
+        let name = input.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let parent = input.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        if !input.is_file() && !name.contains('#') {
+            return Err(wrong(input, "cannot be read: there is no such folder or file"));
+        }
+        (parent.to_owned(), Some(name.to_owned()))
+    };
+    let entries = fs::read_dir(&folder).map_err(|e| wrong(&folder, format!("cannot be read: {e}")))?;
+    let mut names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    names.retain(|name| name.to_lowercase().ends_with(".exr"));
+    names.sort();
+    let groups = groups(&names);
+    let (template, members) = match &wanted {
+        Some(name) => pick_named(&groups, name).ok_or_else(|| wrong(input, "is no frame: its name has no number"))?,
+        None => pick(&groups).map_err(|reason| wrong(&folder, reason))?,
+    };
+    let mut files: Vec<FrameFile> = Vec::new();
+    for digits in members {
+        let path = folder.join(format!("{}{digits}{}", template.before, template.after));
+        let number = digits.parse().map_err(|_| wrong(&path, "has a number above 999999999"))?;
+        files.push(FrameFile { number, digits: digits.clone(), path });
+    }
+    files.sort_by_key(|file| file.number);
+    if let Some([a, b]) = files.windows(2).find_map(|pair| pair.first_chunk().filter(|[a, b]| a.number == b.number)) {
+        return Err(wrong(&b.path, format!("is frame {}, and so is {}", b.number, a.path.display())));
+    }
+    Ok(files)
+}
+
+/// Those of the frames with numbers from one to another.
+pub fn within(files: &[FrameFile], [from, to]: [u32; 2]) -> Vec<FrameFile> {
+    files.iter().filter(|file| (from..=to).contains(&file.number)).cloned().collect()
+}
+
+/// The digits of the members of each sequence. Which of a name's numbers is the frame's: that in which most names differ, else the last.
+fn groups(names: &[String]) -> BTreeMap<Template, Vec<String>> {
+    let mut counts: BTreeMap<Template, usize> = BTreeMap::new();
+    for (template, _) in names.iter().flat_map(|name| numbers(name)) {
+        *counts.entry(template).or_default() += 1;
+    }
+    let mut groups: BTreeMap<Template, Vec<String>> = BTreeMap::new();
+    for name in names {
+        let best = numbers(name).into_iter().max_by_key(|(template, _)| counts[template]);
+        if let Some((template, digits)) = best {
+            groups.entry(template).or_default().push(digits);
+        }
+    }
+    groups
+}
+
+/// Each run of digits in a name, the last one last.
+fn numbers(name: &str) -> Vec<(Template, String)> {
+    let stem = name.len() - ".exr".len();
+    let bytes = &name.as_bytes()[..stem];
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < stem {
+        let digits = bytes[at..].iter().take_while(|b| b.is_ascii_digit()).count();
+        if (1..=MOST_DIGITS).contains(&digits) {
+            let template = Template { before: name[..at].into(), after: name[at + digits..].into() };
+            found.push((template, name[at..at + digits].into()));
+        }
+        at += digits.max(1);
+    }
+    found
+}
+
+type Group<'a> = (&'a Template, &'a Vec<String>);
+
+/// The sequence of a folder: the one called frame_, else the only one that is not a result.
+fn pick(groups: &BTreeMap<Template, Vec<String>>) -> Result<Group<'_>, String> {
+    let usual = groups.iter().find(|(template, _)| template.before == "frame_" && template.after == ".exr");
+    if let Some(usual) = usual {
+        return Ok(usual);
+    }
+    let is_frame = |(template, _): &Group<'_>| {
+        let name = template.before.trim_end_matches(['_', '.', '-']).to_lowercase();
+        !NOT_FRAMES.contains(&name.as_str())
+    };
+    let frames: Vec<Group<'_>> = groups.iter().filter(is_frame).collect();
+    match frames.as_slice() {
+        [only] => Ok(*only),
+        [] => Err("there are no frames: names such as frame_0001.exr, shot.1001.exr or 0001.exr are read".into()),
+        several => {
+            let list = several.iter().map(|(template, members)| format!("{} ({})", template.display(), members.len()));
+            let list = list.collect::<Vec<_>>().join(", ");
+            Err(format!(
+                "has several sequences, {list}: give one of them as IN, as in IN_DIR/{}",
+                several[0].0.display()
+            ))
+        }
+    }
+}
+
+/// The sequence of a pattern or a file's name.
+fn pick_named<'a>(groups: &'a BTreeMap<Template, Vec<String>>, name: &str) -> Option<Group<'a>> {
+    if let Some(at) = name.find('#') {
+        let after = name[at..].trim_start_matches('#');
+        return groups.iter().find(|(template, _)| template.before == name[..at] && template.after == after);
+    }
+    groups.iter().find(|(t, members)| members.iter().any(|digits| format!("{}{digits}{}", t.before, t.after) == name))
+}
+
+/// The step from frame to frame that most of them have, and which frames do not follow the one before by it.
+pub fn gaps(files: &[FrameFile]) -> (u32, Vec<usize>) {
+    let steps: Vec<u32> = files.windows(2).map(|pair| pair[1].number - pair[0].number).collect();
+    let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
+    steps.iter().for_each(|&step| *counts.entry(step).or_default() += 1);
+    // Of equally many, the least.
+    let usual = counts.iter().rev().max_by_key(|(_, count)| **count).map_or(1, |(&step, _)| step);
+    let gaps = steps.iter().enumerate().filter(|(_, step)| **step != usual).map(|(i, _)| i + 1).collect();
+    (usual, gaps)
+}

@@ -1,0 +1,55 @@
+//! `manifest.json` beside the frames: cameras, cuts, and how the gradient was made.
+
+use super::files::FrameFile;
+use super::{SequenceError, wrong};
+use crate::camera::Camera;
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+#[derive(Default)]
+pub struct Manifest {
+    /// One for each frame, or none.
+    pub cameras: Vec<Camera>,
+    /// Numbers of frames that begin another shot.
+    pub cuts: Vec<u32>,
+    /// The gradient's paths stand in the colour in the place of their pixels' own.
+    pub in_place: bool,
+}
+
+/// Reads what it says of some of a folder's frames, which are usually a step apart, if there is one.
+pub fn read(folder: &Path, all: &[FrameFile], files: &[FrameFile], step: u32) -> Result<Manifest, SequenceError> {
+    let path = folder.join("manifest.json");
+    if !path.exists() {
+        return Ok(Manifest::default());
+    }
+    let text = fs::read_to_string(&path).map_err(|e| wrong(&path, format!("cannot be read: {e}")))?;
+    let json: Value = serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|e| wrong(&path, e))?;
+    let in_place = json["gradient_in_place"] == true;
+    let cuts = match &json["cuts"] {
+        Value::Null => Vec::new(),
+        list => numbers(list).ok_or_else(|| wrong(&path, "cuts must be a list of the numbers of frames"))?,
+    };
+    let Some(list) = json["cameras"].as_array() else { return Ok(Manifest { cameras: Vec::new(), cuts, in_place }) };
+    let missing = |frames| {
+        let found = list.len();
+        wrong(&path, format!("has {found} cameras for {frames} frames: give one for each, in order"))
+    };
+    let (first, last) = (all[0].number, all[all.len() - 1].number);
+    let span = ((last - first) / step) as usize + 1;
+    // One for each file, or one for each frame, those included that are missing.
+    let index = |file: &FrameFile| match () {
+        () if list.len() >= span => Some(((file.number - first) / step) as usize),
+        () if list.len() >= all.len() => all.iter().position(|known| known.number == file.number),
+        () => None,
+    };
+    let chosen: Option<Vec<usize>> = files.iter().map(index).collect();
+    let chosen = chosen.ok_or_else(|| missing(all.len()))?;
+    let camera = |&i: &usize| Camera::from_json(&list[i]).map_err(|e| wrong(&path, format!("camera {i}: {e}")));
+    let cameras = chosen.iter().map(camera).collect::<Result<_, _>>()?;
+    Ok(Manifest { cameras, cuts, in_place })
+}
+
+fn numbers(list: &Value) -> Option<Vec<u32>> {
+    list.as_array()?.iter().map(|value| u32::try_from(value.as_u64()?).ok()).collect()
+}

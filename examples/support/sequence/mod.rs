@@ -1,0 +1,440 @@
+//! A sequence of frames as a renderer wrote it: its files, its layers, its cameras, and what `manifest.json` says of them.
+
+mod camera_fit;
+mod described_camera;
+pub mod files;
+mod guides;
+pub mod layers;
+mod manifest;
+pub mod motion;
+
+use crate::camera::{Camera, Raster};
+use asvgf::image_io::{Channels, ExrFile, Window};
+use files::FrameFile;
+use layers::{Layer, Meaning, Names, Place, Places};
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+pub use camera_fit::{Fit, fit};
+
+/// What is wrong with a sequence: which file, and what would do.
+#[derive(Debug)]
+pub struct SequenceError(String);
+
+impl std::error::Error for SequenceError {}
+
+impl fmt::Display for SequenceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+fn wrong(file: &Path, reason: impl fmt::Display) -> SequenceError {
+    SequenceError(format!("{}: {reason}", file.display()))
+}
+
+/// What is known of a sequence beforehand.
+#[derive(Clone, Debug, Default)]
+pub struct Source {
+    /// A folder, a pattern such as `shot.####.exr`, or any of the frames.
+    pub input: PathBuf,
+    /// Names of channels of a user's own.
+    pub names: Names,
+    /// The view layer to take all channels from.
+    pub view_layer: Option<String>,
+    /// Vertical field of view, in radians.
+    pub fov_y: Option<f32>,
+    /// The first and the last frame to read.
+    pub frames: Option<[u32; 2]>,
+    /// Numbers of frames that begin another shot.
+    pub cuts: Vec<u32>,
+}
+
+impl From<&Path> for Source {
+    fn from(input: &Path) -> Self {
+        Self { input: input.to_owned(), ..Self::default() }
+    }
+}
+
+/// How the cameras are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Eye {
+    /// From the manifest.
+    Given,
+    /// From what the files say of them.
+    Described,
+    /// From the frames themselves, but for where they are.
+    Fitted,
+    /// From the frames, with a field of view that was asked for or taken.
+    Turned,
+    /// Not at all.
+    Assumed,
+}
+
+/// Why a frame does not continue the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Break {
+    /// Frames are missing in between.
+    Gap,
+    /// The manifest or the user says that another shot begins.
+    Cut,
+}
+
+/// What is taken where nothing tells.
+const DEFAULT_FOV_Y: f32 = std::f32::consts::FRAC_PI_4;
+
+/// Frames that were looked at, each: all are whole, are of one picture, and have the same layers.
+#[derive(Debug)]
+pub struct Sequence {
+    source: Source,
+    pub files: Vec<FrameFile>,
+    /// The usual step from one frame's number to the next one's.
+    pub step: u32,
+    /// Of each frame, why it does not continue the one before.
+    pub breaks: Vec<Option<Break>>,
+    /// Columns and rows that any frame has pixels in.
+    pub size: [u32; 2],
+    /// Where these lie in the picture.
+    pub window: Window,
+    pub raster: Raster,
+    /// What there is of every frame, in its files.
+    pub layers: Vec<Layer>,
+    /// Layers, and the names of the channels that they were taken from in the first frame.
+    pub taken: Vec<(Layer, String)>,
+    /// The view layer that they are of, and the others that there are.
+    pub view_layer: String,
+    pub other_view_layers: Vec<String>,
+    /// One for each frame, or one for all.
+    pub cameras: Vec<Camera>,
+    /// How they are known.
+    pub eye: Eye,
+    /// The gradient's paths stand in the colour in the place of their pixels' own.
+    pub in_place: bool,
+}
+
+/// One frame: the layers' samples, pixel by pixel.
+#[derive(Clone, Debug)]
+pub struct Pixels(pub Vec<Option<Vec<f32>>>);
+
+impl Pixels {
+    pub fn get(&self, layer: Layer) -> Option<&[f32]> {
+        self.0[layer as usize].as_deref()
+    }
+
+    pub fn set(&mut self, layer: Layer, samples: Option<Vec<f32>>) {
+        self.0[layer as usize] = samples;
+    }
+}
+
+/// A frame that was read: its file, and what was found in it.
+struct Frame {
+    window: Window,
+    display: Window,
+    aspect: f32,
+    image: Channels,
+    places: Places,
+}
+
+impl Frame {
+    /// The window of its pixels in the picture.
+    fn raster(&self) -> Raster {
+        raster(self.window, self.display, self.aspect)
+    }
+}
+
+fn raster(window: Window, display: Window, aspect: f32) -> Raster {
+    let aspect = if aspect.is_finite() && aspect > 0.0 { aspect.into() } else { 1.0 };
+    let offset = [0, 1].map(|axis| window.position[axis] - display.position[axis]);
+    Raster { size: window.size, offset, picture: display.size, aspect }
+}
+
+impl Sequence {
+    /// Looks at every frame, calling back after each with how many there are.
+    pub fn open(source: impl Into<Source>, mut looked: impl FnMut(u32)) -> Result<Self, SequenceError> {
+        let source = source.into();
+        let all = files::list(&source.input)?;
+        let files = source.frames.map_or_else(|| all.clone(), |range| files::within(&all, range));
+        let (first, last) = (all[0].number, all[all.len() - 1].number);
+        let Some(start) = files.first() else {
+            let [from, to] = source.frames.unwrap_or_default();
+            return Err(wrong(&source.input, format!("has frames {first} to {last}, none of --frames {from}-{to}")));
+        };
+        let (step, gaps) = files::gaps(&files);
+        let count = files.len();
+        let (usual, _) = files::gaps(&all);
+        let manifest = manifest::read(start.path.parent().unwrap_or(Path::new(".")), &all, &files, usual)?;
+        let cuts: Vec<u32> = source.cuts.iter().chain(&manifest.cuts).copied().collect();
+        let unknown = source.cuts.iter().find(|cut| !files.iter().any(|file| file.number == **cut));
+        if let Some(cut) = unknown {
+            return Err(wrong(&source.input, format!("has no frame {cut}, which --cut names")));
+        }
+        let break_at = |(i, file): (usize, &FrameFile)| match () {
+            () if i > 0 && cuts.contains(&file.number) => Some(Break::Cut),
+            () if gaps.contains(&i) => Some(Break::Gap),
+            () => None,
+        };
+        let mut sequence = Self {
+            breaks: files.iter().enumerate().map(break_at).collect(),
+            source,
+            files,
+            step,
+            size: [0; 2],
+            window: Window { position: [0; 2], size: [1; 2] },
+            raster: Raster::whole([1; 2]),
+            layers: Vec::new(),
+            taken: Vec::new(),
+            view_layer: String::new(),
+            other_view_layers: Vec::new(),
+            cameras: manifest.cameras,
+            eye: Eye::Given,
+            in_place: manifest.in_place,
+        };
+        let given = !sequence.cameras.is_empty();
+        let mut seen = Vec::new();
+        let mut display = None;
+        for index in 0..count {
+            let frame = sequence.look_at(index, display)?;
+            sequence.window = if index == 0 { frame.window } else { sequence.window.union(frame.window) };
+            display = Some((frame.display, frame.aspect));
+            if !given {
+                seen.push(sequence.see(&frame, index)?);
+            }
+            looked(count as u32);
+        }
+        sequence.size = sequence.window.size;
+        let (display, aspect) = display.unwrap_or((sequence.window, 1.0));
+        sequence.raster = raster(sequence.window, display, aspect);
+        if !given {
+            (sequence.cameras, sequence.eye) = sequence.cameras_of(&seen);
+        }
+        Ok(sequence)
+    }
+
+    pub fn frames(&self) -> usize {
+        self.files.len()
+    }
+
+    pub fn has(&self, layer: Layer) -> bool {
+        self.layers.contains(&layer)
+    }
+
+    /// Whether there are depths, so that surfaces are told apart and followed where they are.
+    pub fn has_surfaces(&self) -> bool {
+        self.has(Layer::Depth)
+    }
+
+    pub fn camera(&self, index: usize) -> Camera {
+        self.cameras[index.min(self.cameras.len() - 1)]
+    }
+
+    /// The file of a frame, with all that it holds.
+    pub fn file(&self, index: usize) -> Result<ExrFile, SequenceError> {
+        ExrFile::read(&self.files[index].path).map_err(|e| SequenceError(e.to_string()))
+    }
+
+    /// Names of the colour's channels in a file.
+    pub fn color_names(&self, index: usize, file: &ExrFile) -> Result<Vec<String>, SequenceError> {
+        let path = &self.files[index].path;
+        let image = file.channels();
+        let places = self.places(path, &image)?;
+        let color = places.get(Layer::Color).map(|place| place.channels.clone()).unwrap_or_default();
+        Ok(color.into_iter().map(|c| image.channels[c].0.clone()).collect())
+    }
+
+    /// Reads a frame: its own layers over the whole window, and normals and depths even if it has none.
+    pub fn read(&self, index: usize) -> Result<Pixels, SequenceError> {
+        let frame = self.frame(index)?;
+        let camera = self.camera(index);
+        let count = (self.size[0] * self.size[1]) as usize;
+        let samples = Layer::ALL.into_iter().zip(&frame.places.of).map(|(layer, place)| match place {
+            Some(place) => Some(self.samples(place, &frame, &camera)),
+            // There is no pair in this frame.
+            None if self.has(layer) && layer.is_of_pairs() => Some(vec![-1.0; layer.components().len() * count]),
+            None => None,
+        });
+        let mut pixels = Pixels(samples.collect());
+        guides::complete(&mut pixels, &camera, self.raster);
+        Ok(pixels)
+    }
+
+    /// The samples of a layer's channels, pixel by pixel, as the format has them.
+    fn samples(&self, place: &Place, frame: &Frame, camera: &Camera) -> Vec<f32> {
+        let channels: Vec<Vec<f32>> =
+            place.channels.iter().map(|&c| frame.window.place(&frame.image.channels[c].1, self.window, 0.0)).collect();
+        let mut samples = interleave(&channels, place.meaning);
+        if place.meaning == Meaning::AlongRay {
+            along_axis(&mut samples, camera, self.raster);
+        }
+        samples
+    }
+
+    fn places(&self, path: &Path, image: &Channels) -> Result<Places, SequenceError> {
+        let places = layers::find(&self.source.names, self.source.view_layer.as_deref(), image);
+        let places = places.map_err(|e| wrong(path, e))?;
+        let pairs = [Layer::GradientCurrent, Layer::GradientPrevious];
+        if let [Some(_), None] | [None, Some(_)] = pairs.map(|layer| places.get(layer)) {
+            return Err(wrong(
+                path,
+                "gradient.current and gradient.previous only mean something together; one is missing",
+            ));
+        }
+        Ok(places)
+    }
+
+    fn frame(&self, index: usize) -> Result<Frame, SequenceError> {
+        let path = &self.files[index].path;
+        let file = self.file(index)?;
+        let image = file.channels();
+        let places = self.places(path, &image)?;
+        Ok(Frame {
+            window: file.data_window(),
+            display: file.display_window(),
+            aspect: file.pixel_aspect(),
+            image,
+            places,
+        })
+    }
+
+    /// Reads a frame whole and compares it with the first.
+    fn look_at(&mut self, index: usize, first: Option<(Window, f32)>) -> Result<Frame, SequenceError> {
+        let frame = self.frame(index)?;
+        let path = self.files[index].path.clone();
+        let found: Vec<Layer> = Layer::ALL.into_iter().filter(|layer| frame.places.get(*layer).is_some()).collect();
+        let Some((display, _)) = first else {
+            let names = |layer: Layer| -> Option<(Layer, String)> {
+                let channels = &frame.places.get(layer)?.channels;
+                let names: Vec<&str> = channels.iter().map(|&c| frame.image.channels[c].0.as_str()).collect();
+                Some((layer, listed(&names)))
+            };
+            self.taken = found.iter().filter_map(|&layer| names(layer)).collect();
+            self.layers = found;
+            self.view_layer = frame.places.view_layer.clone();
+            self.other_view_layers = frame.places.others.clone();
+            return Ok(frame);
+        };
+        let start = self.files[0].path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if frame.display.size != display.size {
+            let ([w, h], [width, height]) = (frame.display.size, display.size);
+            return Err(wrong(
+                &path,
+                format!("is {w}×{h} pixels, and {start} is {width}×{height}: all must be of one size"),
+            ));
+        }
+        // A frame in which nothing has changed needs no pairs.
+        let pairs = found.iter().copied().filter(|layer| layer.is_of_pairs() && !self.has(*layer));
+        self.layers.extend(pairs.collect::<Vec<_>>());
+        for layer in Layer::ALL.into_iter().filter(|layer| !layer.is_of_pairs()) {
+            let channels = layer.channels().join(", ");
+            match (found.contains(&layer), self.has(layer)) {
+                (false, true) => {
+                    return Err(wrong(&path, format!("there is no channel {channels}, which {start} has")));
+                }
+                (true, false) => return Err(wrong(&path, format!("has {channels}, which {start} has not"))),
+                _ => {}
+            }
+        }
+        Ok(frame)
+    }
+
+    /// What a frame tells of its camera.
+    fn see(&self, frame: &Frame, index: usize) -> Result<Seen, SequenceError> {
+        let file = self.file(index)?;
+        if let Some(camera) = described_camera::of(&file, frame.raster()) {
+            return Ok(Seen::Described(camera));
+        }
+        let samples = |layer: Layer| -> Option<(Vec<f32>, Meaning)> {
+            let place = frame.places.get(layer)?;
+            let channels: Vec<Vec<f32>> = place.channels.iter().map(|&c| frame.image.channels[c].1.clone()).collect();
+            Some((interleave(&channels, place.meaning), place.meaning))
+        };
+        let (Some((normals, _)), Some((depths, meaning))) = (samples(Layer::Normal), samples(Layer::Depth)) else {
+            return Ok(Seen::Nothing);
+        };
+        let raster = frame.raster();
+        let along_ray = meaning == Meaning::AlongRay;
+        let slope = self.source.fov_y.map(|fov| raster.slope_of(fov.into()));
+        Ok(match fit(&normals, &depths, raster, along_ray, slope) {
+            Some(fit) => Seen::Fitted(fit),
+            None => Seen::Nothing,
+        })
+    }
+
+    /// Cameras for all frames from what each tells.
+    fn cameras_of(&self, seen: &[Seen]) -> (Vec<Camera>, Eye) {
+        let assumed = || {
+            let fov_y = self.source.fov_y.unwrap_or(DEFAULT_FOV_Y);
+            (vec![Camera::at_rest(fov_y.into(), self.raster)], Eye::Assumed)
+        };
+        let described: Option<Vec<Camera>> = seen.iter().map(Seen::described).collect();
+        if let Some(cameras) = described {
+            return (cameras, Eye::Described);
+        }
+        let Some(fits) = seen.iter().map(Seen::fitted).collect::<Option<Vec<_>>>() else { return assumed() };
+        if self.source.fov_y.is_some() {
+            return (fits.iter().map(|fit| fit.camera).collect(), Eye::Turned);
+        }
+        if fits.iter().all(|fit| fit.determined) {
+            return (fits.iter().map(|fit| fit.camera).collect(), Eye::Fitted);
+        }
+        // Frames in which the field of view shows lend it to the others.
+        let mut slopes: Vec<f64> = fits.iter().filter(|fit| fit.determined).map(|fit| fit.camera.slope()).collect();
+        slopes.sort_by(f64::total_cmp);
+        let (slope, eye) = match slopes.get(slopes.len() / 2) {
+            Some(&slope) => (slope, Eye::Fitted),
+            None => (self.raster.slope_of(DEFAULT_FOV_Y.into()), Eye::Turned),
+        };
+        (fits.iter().map(|fit| if fit.determined { fit.camera } else { fit.camera.with_slope(slope) }).collect(), eye)
+    }
+}
+
+/// What a frame tells of its camera.
+enum Seen {
+    Described(Camera),
+    Fitted(Fit),
+    Nothing,
+}
+
+impl Seen {
+    fn described(&self) -> Option<Camera> {
+        if let Self::Described(camera) = self { Some(*camera) } else { None }
+    }
+
+    fn fitted(&self) -> Option<Fit> {
+        if let Self::Fitted(fit) = self { Some(*fit) } else { None }
+    }
+}
+
+/// Channels pixel by pixel, upwards turned downwards.
+fn interleave(channels: &[Vec<f32>], meaning: Meaning) -> Vec<f32> {
+    let count = channels.first().map_or(0, Vec::len);
+    let mut samples = Vec::with_capacity(channels.len() * count);
+    for i in 0..count {
+        let values = channels.iter().map(|channel| channel[i]);
+        match meaning {
+            Meaning::Upwards => samples.extend(values.enumerate().map(|(c, v)| if c == 1 { -v } else { v })),
+            Meaning::Same | Meaning::AlongRay => samples.extend(values),
+        }
+    }
+    samples
+}
+
+/// Distances along the rays become depths along the view axis.
+fn along_axis(distances: &mut [f32], camera: &Camera, raster: Raster) {
+    for (i, value) in distances.iter_mut().enumerate() {
+        let pixel = [i as u32 % raster.size[0], i as u32 / raster.size[0]];
+        *value = (f64::from(*value) / camera.ray_length(pixel, raster)) as f32;
+    }
+}
+
+/// The names of channels that differ in their last part alone, as in `albedo.R,G,B`.
+fn listed(names: &[&str]) -> String {
+    let split = |name: &str| name.rsplit_once('.').map(|(front, last)| (front.to_owned(), last.to_owned()));
+    let parts: Option<Vec<(String, String)>> = names.iter().map(|name| split(name)).collect();
+    match parts {
+        Some(parts) if parts.iter().all(|(front, _)| *front == parts[0].0) => {
+            let last: Vec<&str> = parts.iter().map(|(_, last)| last.as_str()).collect();
+            format!("{}.{}", parts[0].0, last.join(","))
+        }
+        _ => names.join(","),
+    }
+}

@@ -1,0 +1,33 @@
+//! Image files: EXR with any number of named channels, and PNG.
+//!
+//! Files are written under a temporary name in the same folder and renamed when they are complete, so that there is
+//! never a file that is half written, and an older file stays until the new one replaces it.
+
+mod channels;
+mod exr_file;
+mod files;
+mod png;
+
+pub use channels::{Channels, read_exr, write_exr, write_exr_rgb};
+pub use exr_file::{Attribute, Compression, ExrFile, SampleType, Window};
+pub use png::{read_png, write_png};
+
+pub(crate) use files::{limits, read_file};
+
+use std::path::Path;
+
+/// Why an image file cannot be read or written.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{file}: {reason}")]
+pub struct ImageError {
+    /// The file.
+    pub file: String,
+    /// What is wrong with it.
+    pub reason: String,
+}
+
+impl ImageError {
+    fn new(file: &Path, reason: impl Into<String>) -> Self {
+        Self { file: file.display().to_string(), reason: reason.into() }
+    }
+}
