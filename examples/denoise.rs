@@ -2,6 +2,8 @@
 
 #[path = "support/arguments.rs"]
 mod arguments;
+#[path = "support/blend_in_time.rs"]
+mod blend_in_time;
 #[allow(dead_code, reason = "shared with `render`, which writes sequences")]
 #[path = "support/camera.rs"]
 mod camera;

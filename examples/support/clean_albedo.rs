@@ -16,11 +16,11 @@ use asvgf::{Error, FilterSettings, Gradient, Settings, Shading, Surfaces, View};
 /// σ of the luminance stop for an albedo.
 const SIGMA_LUMINANCE: f32 = 0.5;
 
-/// Pixels to each side over which noise is counted.
+/// Pixels to each side of a splinter over which noise is counted.
 const AROUND: usize = 3;
 
-/// Part of the pixels around that are off, from which on an albedo is noise in part, and wholly. Independent noise is off in one of five.
-const NOISY: [f32; 2] = [0.05, 0.10];
+/// Part of a surface that is off, from which on its albedo is noise in part, and wholly. Independent noise is off in one pixel of five.
+const NOISY: [f32; 2] = [0.01, 0.03];
 
 /// Denoises the albedo of a sequence, if there is any need.
 pub struct CleanAlbedo<'g> {
@@ -110,8 +110,9 @@ fn settings() -> Settings {
     Settings { filter, ..Settings::adaptive() }
 }
 
-/// Of each pixel, the part of the pixels around whose albedo is noise: not a number of 0…1, or not within what the 3×3 pixels of its surface were in
-/// the last frame. A texture that moves stays within them.
+/// Of each pixel, the part of its surface whose albedo is noise: not a number of 0…1, black in the middle of what is not, or not within what the 3×3 pixels of
+/// the surface were in the last frame. A texture that moves stays within them. Of the whole surface that is seen in one piece: where a metal shows a wall
+/// of one colour, no pixel differs from others by chance, but paths do.
 fn noise(
     pixels: &Pixels,
     albedo: &[f32],
@@ -132,15 +133,20 @@ fn noise(
         if a.iter().any(|x| !x.is_finite() || *x > 1.05) {
             return true;
         }
+        let near = |at: usize, side: usize| at.saturating_sub(1)..=(at + 1).min(side - 1);
+        let around = || near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x));
+        let lit = |j: usize| now[j] != [0.0; 3] && is_same(pixels, i, j);
+        if a == [0.0; 3] && around().filter(|&j| lit(j)).count() >= 3 {
+            return true;
+        }
         let Some(last) = last else { return false };
         let place = [(i % width) as f32 + motion[2 * i], (i / width) as f32 + motion[2 * i + 1]].map(f32::round);
         if !(place[0] >= 0.0 && place[1] >= 0.0 && place[0] < width as f32 && place[1] < height as f32) {
             return false;
         }
-        let near = |at: f32, side: usize| (at as usize).saturating_sub(1)..=(at as usize + 1).min(side - 1);
         let (mut low, mut high, mut count) = ([f32::MAX; 3], [f32::MIN; 3], 0);
-        for y in near(place[1], height) {
-            for x in near(place[0], width).filter(|x| is_same(last, i, y * width + x)) {
+        for y in near(place[1] as usize, height) {
+            for x in near(place[0] as usize, width).filter(|x| is_same(last, i, y * width + x)) {
                 let there = three(last, Layer::Albedo, y * width + x);
                 low = std::array::from_fn(|c| low[c].min(there[c]));
                 high = std::array::from_fn(|c| high[c].max(there[c]));
@@ -150,21 +156,48 @@ fn noise(
         // 2 % of rounding and of sampling between pixels. Few pixels tell little of what lies between.
         count >= 6 && (0..3).any(|c| a[c] < 0.98 * low[c] - 0.02 || a[c] > 1.02 * high[c] + 0.02)
     };
-    let off: Vec<f32> = (0..now.len()).map(|i| f32::from(u8::from(is_off(i)))).collect();
-    // A mean over a square: rows first.
-    let row = |i: usize| {
-        let (x, start) = (i % width, i - i % width);
-        let range = x.saturating_sub(AROUND)..=(x + AROUND).min(width - 1);
-        (range.clone().map(|x| off[start + x]).sum::<f32>(), range.count() as f32)
+    let off: Vec<bool> = (0..now.len()).map(is_off).collect();
+    let surfaces = surfaces(width, now.len(), |i, j| is_same(pixels, i, j));
+    let mut counts = vec![[0_u32; 2]; now.len()];
+    for (&surface, &off) in surfaces.iter().zip(&off) {
+        counts[surface][0] += 1;
+        counts[surface][1] += u32::from(off);
+    }
+    // What is seen in splinters, as the rim of a sphere, is judged by what lies around it.
+    let around = |i: usize| {
+        let near = |at: usize, side: usize| at.saturating_sub(AROUND)..=(at + AROUND).min(side - 1);
+        let pixels = near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x));
+        let (count, off) = pixels.fold((0, 0), |(n, sum), j| (n + 1, sum + u32::from(off[j])));
+        off as f32 / count as f32
     };
-    let rows: Vec<(f32, f32)> = (0..off.len()).map(row).collect();
-    let column = |i: usize| {
-        let (x, y) = (i % width, i / width);
-        let range = y.saturating_sub(AROUND)..=(y + AROUND).min(height - 1);
-        let (sum, count) = range.map(|y| rows[y * width + x]).fold((0.0, 0.0), |(s, n), (t, m)| (s + t, n + m));
-        sum / count
+    let part = |i: usize| match counts[surfaces[i]] {
+        [size, _] if size < SPLINTER => around(i),
+        [size, off] => off as f32 / size as f32,
     };
-    (0..off.len()).map(column).collect()
+    (0..now.len()).map(part).collect()
+}
+
+/// Pixels below which a surface is a splinter.
+const SPLINTER: u32 = 32;
+
+/// Of each pixel, the first pixel of the surface that it is part of: neighbours in a row or a column that are the same one are connected.
+fn surfaces(width: usize, count: usize, is_same: impl Fn(usize, usize) -> bool) -> Vec<usize> {
+    fn root(parents: &mut [usize], mut i: usize) -> usize {
+        while parents[i] != i {
+            parents[i] = parents[parents[i]];
+            i = parents[i];
+        }
+        i
+    }
+    let mut parents: Vec<usize> = (0..count).collect();
+    for i in 0..count {
+        let left = (!i.is_multiple_of(width)).then(|| i - 1);
+        for j in [left, i.checked_sub(width)].into_iter().flatten().filter(|&j| is_same(i, j)) {
+            let (a, b) = (root(&mut parents, i), root(&mut parents, j));
+            parents[a.max(b)] = a.min(b);
+        }
+    }
+    (0..count).map(|i| root(&mut parents, i)).collect()
 }
 
 /// A layer's number in a pixel, 0 if there is none.

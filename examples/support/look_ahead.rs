@@ -1,9 +1,10 @@
 //! Frames denoised with those before and those after them.
 //!
 //! A frame of an animation has a future. Played backwards, a sequence gives each frame a second history, of what comes after it: the first frames have one
-//! at last, and where light has just changed the future knows the new light. Both results are weighted by their history lengths, n and m: each is an
-//! average of as many samples, so that n/(n + m) and m/(n + m) give the least variance (Gauss). In real time there is no future: this is for files alone.
+//! at last, and where light has just changed the future knows the new light. `blend_in_time.rs` says how much of either is taken. In real time there is no
+//! future: this is for files alone.
 
+use crate::blend_in_time::{Estimate, blend};
 use crate::film::Film;
 use crate::replay::{Exposed, Played, Player};
 use crate::sequence::layers::Layer;
@@ -35,17 +36,11 @@ const STRETCH: [usize; 2] = [4, 64];
 /// Frames after a stretch with which its last frame's history begins.
 const BEYOND: usize = 12;
 
-/// A result with its history lengths.
-struct Seen {
-    image: Vec<[f32; 3]>,
-    lengths: Vec<f32>,
-}
-
 /// Where the run backwards leaves its results.
 struct Behind {
     /// The first frame of the stretch, and its results.
     first: usize,
-    seen: Vec<Option<Seen>>,
+    seen: Vec<Option<Estimate>>,
 }
 
 /// A denoised frame, by its place, with the film that holds its other images.
@@ -85,15 +80,15 @@ pub fn denoise(
         add(&mut readings, &exposed);
         denoised.times.push(exposed.times);
         let film = player.film();
-        let mut image = film.numbers(View::Denoised)?;
+        let mut now = estimate(film)?;
         let later = behind.as_mut().and_then(|(_, kept)| {
             let kept = kept.as_mut()?;
             kept.seen.get_mut(index - kept.first)?.take()
         });
         if let Some(later) = later {
-            blend(&mut image, &lengths(film)?, &later);
+            blend(&mut now, &later, &pixels, sequence.size);
         }
-        done(index, &image, &pixels, film)?;
+        done(index, &now.image, &pixels, film)?;
     }
     denoised.complaint = motion::complaint(&readings);
     Ok(denoised)
@@ -116,7 +111,7 @@ fn backwards(film: &mut Film<'_>, sequence: &Sequence, first: usize) -> Result<B
     let breaks = |index: usize| sequence.breaks.get(index).is_some_and(Option::is_some);
     let end = (first + stretch..(first + stretch + BEYOND).min(frames)).find(|&index| breaks(index));
     let end = end.unwrap_or((first + stretch + BEYOND).min(frames));
-    let mut seen: Vec<Option<Seen>> = Vec::new();
+    let mut seen: Vec<Option<Estimate>> = Vec::new();
     seen.resize_with(stretch, || None);
     film.denoiser.reset();
     let mut player = Player::new(film, sequence, true);
@@ -126,25 +121,15 @@ fn backwards(film: &mut Film<'_>, sequence: &Sequence, first: usize) -> Result<B
         player.play(&Played { index, pixels: &pixels, continues })?;
         if index < first + stretch {
             let film = player.film();
-            seen[index - first] = Some(Seen { image: film.numbers(View::Denoised)?, lengths: lengths(film)? });
+            seen[index - first] = Some(estimate(film)?);
         }
     }
     Ok(Behind { first, seen })
 }
 
-fn lengths(film: &mut Film<'_>) -> Result<Vec<f32>, asvgf::Error> {
-    Ok(film.numbers(View::HistoryLength)?.into_iter().map(|[length, ..]| length).collect())
-}
-
-/// The mean of two averages of n and m samples. Where there is neither, nothing was averaged, and both are the sample itself.
-fn blend(image: &mut [[f32; 3]], lengths: &[f32], later: &Seen) {
-    let pixels = image.iter_mut().zip(&later.image);
-    for ((now, then), (n, m)) in pixels.zip(lengths.iter().zip(&later.lengths)) {
-        let weight = if n + m > 0.0 { m / (n + m) } else { 0.0 };
-        if weight > 0.0 {
-            *now = std::array::from_fn(|c| now[c] + weight * (then[c] - now[c]));
-        }
-    }
+fn estimate(film: &mut Film<'_>) -> Result<Estimate, asvgf::Error> {
+    let lengths = film.numbers(View::HistoryLength)?.into_iter().map(|[length, ..]| length).collect();
+    Ok(Estimate { image: film.numbers(View::Denoised)?, lengths })
 }
 
 fn add(sums: &mut Vec<Matches>, exposed: &Exposed) {

@@ -4,6 +4,8 @@
 
 #[path = "../../examples/support/arguments.rs"]
 mod arguments;
+#[path = "../../examples/support/blend_in_time.rs"]
+mod blend_in_time;
 #[path = "../../examples/support/camera.rs"]
 mod camera;
 #[path = "../../examples/support/clean_albedo.rs"]
