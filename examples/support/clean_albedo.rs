@@ -19,6 +19,9 @@ const SIGMA_LUMINANCE: f32 = 0.5;
 /// Pixels to each side of a splinter over which noise is counted.
 const AROUND: usize = 3;
 
+/// Of the 8 neighbours of a black pixel, those with an albedo that make it one by chance: a pixel of a line of ink has two black ones.
+const LONELY: usize = 7;
+
 /// Part of a surface that is off, from which on its albedo is noise in part, and wholly. Independent noise is off in one pixel of five.
 const NOISY: [f32; 2] = [0.01, 0.03];
 
@@ -136,7 +139,7 @@ fn noise(
         let near = |at: usize, side: usize| at.saturating_sub(1)..=(at + 1).min(side - 1);
         let around = || near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x));
         let lit = |j: usize| now[j] != [0.0; 3] && is_same(pixels, i, j);
-        if a == [0.0; 3] && around().filter(|&j| lit(j)).count() >= 3 {
+        if a == [0.0; 3] && around().filter(|&j| lit(j)).count() >= LONELY {
             return true;
         }
         let Some(last) = last else { return false };
