@@ -14,10 +14,13 @@ use crate::sequence::layers::Layer;
 use asvgf::{Error, FilterSettings, Gradient, Settings, Shading, Surfaces, View};
 
 /// σ of the luminance stop for an albedo.
-const SIGMA_LUMINANCE: f32 = 0.5;
+const SIGMA_LUMINANCE: f32 = 1.0;
 
 /// Pixels to each side of a splinter over which noise is counted.
 const AROUND: usize = 3;
+
+/// Pixels of a surface that may be off for any reason.
+const FEW: u32 = 3;
 
 /// Of the 8 neighbours of a black pixel, those with an albedo that make it one by chance: a pixel of a line of ink has two black ones.
 const LONELY: usize = 7;
@@ -116,7 +119,7 @@ fn settings() -> Settings {
 /// Of each pixel, the part of its surface whose albedo is noise: not a number of 0…1, black in the middle of what is not, or not within what the 3×3 pixels of
 /// the surface were in the last frame. A texture that moves stays within them. Of the whole surface that is seen in one piece: where a metal shows a wall
 /// of one colour, no pixel differs from others by chance, but paths do.
-fn noise(
+pub fn noise(
     pixels: &Pixels,
     albedo: &[f32],
     last: Option<&Pixels>,
@@ -133,6 +136,10 @@ fn noise(
     };
     let is_off = |i: usize| {
         let a = now[i];
+        // A light that reflects nothing is black by itself.
+        if three(pixels, Layer::Emission, i) != [0.0; 3] {
+            return false;
+        }
         if a.iter().any(|x| !x.is_finite() || *x > 1.05) {
             return true;
         }
@@ -156,8 +163,8 @@ fn noise(
                 count += 1;
             }
         }
-        // 2 % of rounding and of sampling between pixels. Few pixels tell little of what lies between.
-        count >= 6 && (0..3).any(|c| a[c] < 0.98 * low[c] - 0.02 || a[c] > 1.02 * high[c] + 0.02)
+        // 2 % of rounding and of sampling between pixels. Fewer than all may miss what lies between.
+        count == 9 && (0..3).any(|c| a[c] < 0.98 * low[c] - 0.02 || a[c] > 1.02 * high[c] + 0.02)
     };
     let off: Vec<bool> = (0..now.len()).map(is_off).collect();
     let surfaces = surfaces(width, now.len(), |i, j| is_same(pixels, i, j));
@@ -175,7 +182,7 @@ fn noise(
     };
     let part = |i: usize| match counts[surfaces[i]] {
         [size, _] if size < SPLINTER => around(i),
-        [size, off] => off as f32 / size as f32,
+        [size, off] => off.saturating_sub(FEW) as f32 / size as f32,
     };
     (0..now.len()).map(part).collect()
 }

@@ -1,7 +1,9 @@
 //! Cameras of sequences: written, read, and derived from what they saw.
 
 use crate::camera::{Camera, Lens, Raster, dot};
-use crate::sequence::{Fit, fit};
+use crate::folder::Folder;
+use crate::sequence::{Eye, Fit, fit};
+use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, LayerAttributes, Vec2, WritableImage as _};
 use serde_json::json;
 
 const SIZE: [u32; 2] = [96, 54];
@@ -135,4 +137,68 @@ fn nothing_is_derived_from_noise() {
         assert!(fit(&normals, &depths, raster, along_ray, None).is_none());
     }
     assert!(fit(&[], &[], Raster::whole([0, 0]), false, None).is_none());
+}
+
+type Matrix = [[f64; 4]; 4];
+
+/// Row vectors from the left, as files have it.
+fn times(a: &Matrix, b: &Matrix) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+/// A camera as programs write it: looking along +Z or −Z of its own space, with a picture of −1…1 or of 0…1, y up or down in it.
+#[test]
+fn attributes_describe_cameras() {
+    let raster = Raster::whole(SIZE);
+    for (lens, sign, unit, down) in [
+        (Lens::Perspective(0.6), 1.0, true, false),
+        (Lens::Perspective(0.6), 1.0, true, true),
+        (Lens::Perspective(0.6), -1.0, false, false),
+        (Lens::Orthographic(1.5), -1.0, false, false),
+        (Lens::Orthographic(1.5), 1.0, true, true),
+    ] {
+        let camera = Camera { shift: [0.1, -0.05], ..turned(1.0, lens) };
+        let to_view = |v: [f64; 3]| [dot(v, camera.right), dot(v, camera.up), sign * dot(v, camera.forward)];
+        let axis = |k: usize| to_view(std::array::from_fn(|i| f64::from(u8::from(i == k))));
+        let moved = to_view(camera.eye.map(|x| -x));
+        let row = |v: [f64; 3], w: f64| [v[0], v[1], v[2], w];
+        let world_to_camera = [row(axis(0), 0.0), row(axis(1), 0.0), row(axis(2), 0.0), row(moved, 1.0)];
+        // x/(s·z) − shift, y/(s·z·h/w) − shift/(h/w).
+        let (s, tall) = (camera.slope(), raster.height_over_width());
+        let shift = [camera.shift[0], camera.shift[1] / tall];
+        let mut to_picture = [[0.0; 4]; 4];
+        (to_picture[0][0], to_picture[1][1], to_picture[2][2]) = (1.0 / s, 1.0 / (s * tall), sign);
+        let last = if camera.is_orthographic() { 3 } else { 2 };
+        let w = if camera.is_orthographic() { 1.0 } else { sign };
+        (to_picture[last][0], to_picture[last][1], to_picture[last][3]) = (-shift[0] * w, -shift[1] * w, w);
+        // And from −1…1 to what the program has.
+        let (scale, offset) = if unit { (0.5, 0.5) } else { (1.0, 0.0) };
+        let flip = if down { -1.0 } else { 1.0 };
+        let to_program =
+            [[scale, 0.0, 0.0, 0.0], [0.0, flip * scale, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [offset, offset, 0.0, 1.0]];
+        let world_to_ndc = times(&times(&world_to_camera, &to_picture), &to_program);
+
+        let folder = Folder::new();
+        let path = folder.0.join("frame_0000.exr");
+        let mut attributes = LayerAttributes::default();
+        let flat = |m: &Matrix| std::array::from_fn(|i| m[i / 4][i % 4] as f32);
+        attributes.world_to_camera = Some(flat(&world_to_camera));
+        attributes.world_to_normalized_device = Some(flat(&world_to_ndc));
+        let size = Vec2(SIZE[0] as usize, SIZE[1] as usize);
+        let channel = |name: &str| AnyChannel::new(name, FlatSamples::F32(vec![0.5; size.area()]));
+        let channels = AnyChannels::sort(
+            ["B", "G", "R", "depth.Z", "normal.X", "normal.Y", "normal.Z"].map(channel).into_iter().collect(),
+        );
+        let part = exr::prelude::Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, channels);
+        Image::from_layer(part).write().to_file(&path).unwrap();
+
+        let sequence = folder.open().unwrap();
+        assert_eq!(sequence.eye, Eye::Described);
+        let found = sequence.camera(0);
+        let pixels = [[0, 0], [95, 0], [40, 53]];
+        for pixel in pixels {
+            let [a, b] = [&found, &camera].map(|camera| camera.position(pixel, 2.0, raster));
+            assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-4), "{found:?} is not {camera:?}: {a:?}, {b:?}");
+        }
+    }
 }

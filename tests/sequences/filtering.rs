@@ -2,7 +2,7 @@
 
 use crate::export::{self, Export};
 use crate::film::Film;
-use crate::folder::{Folder, add, wall};
+use crate::folder::{Folder, add, random, wall};
 use crate::gpu::Gpu;
 use crate::layers::Layer;
 use crate::sequence::Sequence;
@@ -110,15 +110,6 @@ fn painted(folder: &Folder, frames: u32, size: [u32; 2], radiance: &dyn Fn(u32, 
         }
         folder.write(frame, &image);
     }
-}
-
-/// A number for each pixel and seed, 0…1.
-fn random(pixel: u32, seed: u32) -> f32 {
-    let mut x = pixel.wrapping_mul(0x9e37_79b9) ^ seed.wrapping_mul(0x85eb_ca6b);
-    for _ in 0..3 {
-        x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
-    }
-    (x >> 8) as f32 / 16_777_216.0
 }
 
 #[test]

@@ -64,3 +64,12 @@ pub fn rename(image: &mut Channels, from: &str, to: &str) {
     let channel = image.channels.iter_mut().find(|(name, _)| name == from).unwrap();
     channel.0 = to.into();
 }
+
+/// A number for each pixel and seed, 0…1.
+pub fn random(pixel: u32, seed: u32) -> f32 {
+    let mut x = pixel.wrapping_mul(0x9e37_79b9) ^ seed.wrapping_mul(0x85eb_ca6b);
+    for _ in 0..3 {
+        x = (x ^ (x >> 16)).wrapping_mul(0x7feb_352d);
+    }
+    (x >> 8) as f32 / 16_777_216.0
+}

@@ -46,3 +46,4 @@ mod folder;
 mod forms;
 mod names;
 mod refusals;
+mod time;

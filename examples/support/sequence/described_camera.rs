@@ -58,9 +58,14 @@ fn from_matrices(world_to_camera: &Matrix, world_to_ndc: &Matrix, raster: Raster
             let clip = |c: usize| {
                 p[0] * world_to_ndc[0][c] + p[1] * world_to_ndc[1][c] + p[2] * world_to_ndc[2][c] + world_to_ndc[3][c]
             };
-            (clip(3) > 0.0).then(|| [clip(0) / clip(3), clip(1) / clip(3)])
+            (clip(3) > 0.0).then(|| [clip(0) / clip(3), clip(1) / clip(3), clip(2) / clip(3)])
         };
         let (middle, side, above) = (at(0.0, 0.0)?, at(1.0, 0.0)?, at(0.0, 1.0)?);
+        // What a parallel view looks along is where its depth grows.
+        let before: f64 = (0..3).map(|i| eye[i] * world_to_ndc[i][2]).sum::<f64>() + world_to_ndc[3][2];
+        if orthographic && middle[2] < before {
+            return None;
+        }
         // A picture of −1…1, unless its middle is nearer to that of 0…1.
         let from_zero = middle[0] > 0.25 && middle[1].abs() > 0.25;
         let (dx, dy) = ((side[0] - middle[0]).abs(), (above[1] - middle[1]).abs());

@@ -1,0 +1,286 @@
+//! Frames that see later ones, cuts, motion that leads astray, and albedos that are noise.
+
+use crate::camera::{Camera, Raster};
+use crate::clean_albedo;
+use crate::film::Film;
+use crate::folder::{Folder, add, random, wall};
+use crate::gpu::Gpu;
+use crate::layers::Layer;
+use crate::look_ahead::{self, Denoised};
+use crate::sequence::motion::{READINGS, complaint, readings};
+use crate::sequence::{Pixels, Sequence};
+use asvgf::Settings;
+
+const SIZE: [u32; 2] = [36, 24];
+
+fn settings() -> Settings {
+    let mut settings = Settings::adaptive();
+    settings.filter.gradient = asvgf::Gradient::Statistics;
+    settings
+}
+
+fn denoised(sequence: &Sequence, ahead: bool) -> (Vec<Vec<[f32; 3]>>, Denoised) {
+    let gpu = Gpu::new().unwrap();
+    let mut film = Film::new(&gpu, sequence.size, settings()).unwrap();
+    let backwards = ahead.then(|| look_ahead::settings(&settings()));
+    let mut frames = Vec::new();
+    let told = look_ahead::denoise(&mut film, backwards.as_ref(), sequence, &mut |_, image, _, _| {
+        frames.push(image.to_vec());
+        Ok(())
+    });
+    (frames, told.unwrap())
+}
+
+/// A wall of radiance `light(frame)` with exponential noise.
+fn lit(folder: &Folder, frames: u32, light: &dyn Fn(u32) -> f32) {
+    for frame in 0..frames {
+        let mut image = wall(SIZE);
+        for (_, samples) in image.channels.iter_mut().take(3) {
+            for (i, x) in samples.iter_mut().enumerate() {
+                *x = -light(frame) * (1.0 - random(i as u32, frame)).ln();
+            }
+        }
+        folder.write(frame, &image);
+    }
+}
+
+/// Mean squared error over the squared light.
+fn error(frame: &[[f32; 3]], light: f32) -> f64 {
+    let square = |c: &[f32; 3]| f64::from((c[0] - light) / light).powi(2);
+    frame.iter().map(square).sum::<f64>() / frame.len() as f64
+}
+
+#[test]
+fn a_frame_sees_what_comes_after_it() {
+    let folder = Folder::new();
+    lit(&folder, 10, &|_| 1.0);
+    let sequence = folder.open().unwrap();
+    let (past, both) = (denoised(&sequence, false).0, denoised(&sequence, true).0);
+    let (alone, seen) = (error(&past[0], 1.0), error(&both[0], 1.0));
+    println!("the first frame alone {alone:.5}, with nine after it {seen:.5}");
+    assert!(seen < 0.6 * alone);
+    let sum = |frames: &[Vec<[f32; 3]>]| frames.iter().map(|frame| error(frame, 1.0)).sum::<f64>();
+    assert!(sum(&both) < 0.9 * sum(&past), "{} of {}", sum(&both), sum(&past));
+    // The last frame has no future: it is what its past makes of it.
+    let last: f64 = both[9].iter().zip(&past[9]).map(|(a, b)| f64::from((a[0] - b[0]).abs())).sum();
+    assert!(last / (36.0 * 24.0) < 0.02, "{last}");
+}
+
+/// Where the light changes, the past knows nothing of what is new, and the future does; and the other way round.
+#[test]
+fn neither_past_nor_future_lights_the_other() {
+    let folder = Folder::new();
+    let light = |frame: u32| if frame < 6 { 4.0 } else { 1.0 };
+    lit(&folder, 12, &light);
+    let (frames, told) = denoised(&folder.open().unwrap(), true);
+    for (i, frame) in frames.iter().enumerate() {
+        let mean = frame.iter().map(|c| f64::from(c[0])).sum::<f64>() / frame.len() as f64;
+        let expected = f64::from(light(i as u32));
+        assert!((mean / expected - 1.0).abs() < 0.1, "frame {i}: {mean:.3} is not {expected}");
+    }
+    assert!(told.cuts.is_empty() && told.complaint.is_none());
+}
+
+/// Two shots of surfaces of their own: the second begins anew, and says so.
+#[test]
+fn cuts_are_found() {
+    let folder = Folder::new();
+    for frame in 0..6 {
+        let mut image = wall(SIZE);
+        let (light, depth) = if frame < 3 { (0.9, 1.0) } else { (0.1, 7.0) };
+        image.channels.iter_mut().take(3).for_each(|(_, samples)| samples.fill(light));
+        image.channels.last_mut().unwrap().1.fill(depth);
+        folder.write(frame, &image);
+    }
+    let (frames, told) = denoised(&folder.open().unwrap(), true);
+    assert_eq!(told.cuts, [3]);
+    for (i, frame) in frames.iter().enumerate() {
+        let light = if i < 3 { 0.9 } else { 0.1 };
+        assert!(frame.iter().all(|c| (c[0] - light).abs() < 2e-3), "frame {i}: {:?}", frame[0]);
+    }
+}
+
+/// Bars of many depths and directions that move by a vector, and the frame before.
+fn moving_bars(by: [i32; 2]) -> [Pixels; 2] {
+    let frame = |by: [i32; 2]| {
+        let mut pixels = Pixels(vec![None; Layer::ALL.len()]);
+        let places = (0..SIZE[1] as i32).flat_map(|y| (0..SIZE[0] as i32).map(move |x| [x - by[0], y - by[1]]));
+        let cell = |[x, y]: [i32; 2]| random((x.div_euclid(4) * 91 + y.div_euclid(4) * 7919) as u32, 3);
+        pixels.set(Layer::Depth, Some(places.clone().map(|p| 1.0 + 9.0 * cell(p)).collect()));
+        let normal = |p| if cell(p) < 0.5 { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
+        pixels.set(Layer::Normal, Some(places.flat_map(normal).collect()));
+        pixels
+    };
+    [frame(by), frame([0, 0])]
+}
+
+/// The sign, axis or unit of motion that is wrong is named, and motion that is right is not complained of.
+#[test]
+fn motion_that_leads_astray_is_told() {
+    let by = [5, 4];
+    let [now, before] = moving_bars(by);
+    let raster = Raster::whole(SIZE);
+    let count = (SIZE[0] * SIZE[1]) as usize;
+    let right = [-by[0] as f32, -by[1] as f32];
+    let told = |vector: [f32; 2]| complaint(&readings(&now, &before, &vector.repeat(count), raster));
+    assert_eq!(told(right), None);
+    let [width, height] = SIZE.map(|side| side as f32);
+    let [x, y] = right;
+    let wrong = [
+        [x, -y],
+        [-x, -y],
+        [-x, y],
+        [y, x],
+        [x / 2.0, y / 2.0],
+        [2.0 * x, 2.0 * y],
+        [x / width, y / height],
+        [2.0 * x / width, 2.0 * y / height],
+        [2.0 * x / width, -2.0 * y / height],
+    ];
+    for (vector, (reading, _)) in wrong.into_iter().zip(READINGS) {
+        let told = told(vector).expect(reading);
+        assert!(told.contains(reading), "{vector:?}: «{told}» is not «{reading}»");
+    }
+    let told = told([11.0, 5.0]).expect("nothing fits");
+    assert!(told.contains("its sign, its unit or its axis is wrong"), "{told}");
+}
+
+/// Albedo of a surface, and its part that is noise.
+fn noise(albedo: &dyn Fn(u32, f32, f32) -> f32, motion: [f32; 2]) -> f32 {
+    let frame = |number: u32| {
+        let mut pixels = Pixels(vec![None; Layer::ALL.len()]);
+        let count = (SIZE[0] * SIZE[1]) as usize;
+        pixels.set(Layer::Depth, Some(vec![2.0; count]));
+        pixels.set(Layer::Normal, Some([0.0, 0.0, 1.0].repeat(count)));
+        let value = |i: usize| {
+            let place = [i as u32 % SIZE[0], i as u32 / SIZE[0]].map(|x| x as f32);
+            // It has moved on since the first frame.
+            let at = [0, 1].map(|k| place[k] + number as f32 * motion[k]);
+            [albedo(number * count as u32 + i as u32, at[0], at[1]); 3]
+        };
+        pixels.set(Layer::Albedo, Some((0..count).flat_map(value).collect()));
+        pixels
+    };
+    let (before, now) = (frame(0), frame(1));
+    let vectors = motion.repeat((SIZE[0] * SIZE[1]) as usize);
+    let parts = clean_albedo::noise(&now, now.get(Layer::Albedo).unwrap(), Some(&before), &vectors, SIZE);
+    parts.iter().sum::<f32>() / parts.len() as f32
+}
+
+#[test]
+fn textures_are_told_from_noise() {
+    let checks = |_: u32, x: f32, y: f32| {
+        let square = ((x / 5.0).floor() + (y / 5.0).floor()) as i32;
+        if square.rem_euclid(2) == 0 { 0.8_f32 } else { 0.0 }
+    };
+    let waves = |_: u32, x: f32, y: f32| 0.5 + 0.4 * (0.7 * x).sin() * (0.5 * y).cos();
+    let lines = |_: u32, x: f32, _: f32| if (x as i32).rem_euclid(6) == 0 { 0.0 } else { 0.9 };
+    for motion in [[0.0, 0.0], [1.3, -0.6], [-0.4, 0.2]] {
+        for (name, texture) in [("checks", &checks as &dyn Fn(u32, f32, f32) -> f32), ("waves", &waves)] {
+            let part = noise(texture, motion);
+            assert!(part < 0.01, "{name} that move by {motion:?}: {part} of them is taken for noise");
+        }
+    }
+    let part = noise(&lines, [0.0, 0.0]);
+    assert!(part < 0.01, "lines of ink: {part}");
+    let paths: [(&str, &dyn Fn(u32, f32, f32) -> f32); 3] = [
+        ("any", &|i, _, _| random(i, 1)),
+        ("nothing in one of ten", &|i, _, _| if random(i, 2) < 0.1 { 0.0 } else { 0.7 }),
+        ("above 1 in one of twenty", &|i, _, _| if random(i, 3) < 0.05 { 4.0 } else { 0.7 }),
+    ];
+    for (name, albedo) in paths {
+        let part = noise(albedo, [0.3, 0.1]);
+        assert!(part > 0.03, "{name}: {part}");
+    }
+}
+
+/// A metal whose albedo is what single paths saw: radiance and albedo have the same zeros and peaks.
+#[test]
+fn a_noisy_albedo_leaves_no_holes() {
+    let folder = Folder::new();
+    for frame in 0..8 {
+        let mut image = wall(SIZE);
+        add(&mut image, Layer::Albedo, &[0.5; 3]);
+        let paths: Vec<f32> = (0..SIZE[0] * SIZE[1])
+            .map(|i| match random(i, frame) {
+                x if x < 0.15 => 0.0,
+                x if x > 0.97 => 5.0,
+                x => x,
+            })
+            .collect();
+        let light: Vec<f32> = (0..SIZE[0] * SIZE[1]).map(|i| -(1.0 - random(i, 100 + frame)).ln()).collect();
+        for (name, samples) in &mut image.channels {
+            let of_albedo = name.starts_with("albedo");
+            if of_albedo || !name.contains('.') {
+                samples
+                    .iter_mut()
+                    .enumerate()
+                    .for_each(|(i, x)| *x = paths[i] * if of_albedo { 1.0 } else { light[i] });
+            }
+        }
+        folder.write(frame, &image);
+    }
+    let (frames, _) = denoised(&folder.open().unwrap(), true);
+    // ∫ x over 0.15…0.97, and 3 % of 5.
+    let expected = 0.5 * (0.97 * 0.97 - 0.15 * 0.15) + 0.15;
+    let mean = |frame: &[[f32; 3]]| frame.iter().map(|c| f64::from(c[0])).sum::<f64>() / frame.len() as f64;
+    for (i, frame) in frames.iter().enumerate() {
+        let dark = frame.iter().filter(|c| c[0] < 0.5 * expected).count();
+        let off = mean(frame) / f64::from(expected) - 1.0;
+        println!("frame {i}: {:+.1} %, {dark} dark pixels", 100.0 * off);
+        assert!(off.abs() < 0.15 && dark <= 1);
+    }
+}
+
+/// Without guides there is less to go by, and still a picture: noise goes, borders of light stay.
+#[test]
+fn colours_alone_are_denoised() {
+    let folder = Folder::new();
+    let side = |i: usize| if i as u32 % SIZE[0] < SIZE[0] / 2 { 1.0 } else { 8.0 };
+    for frame in 0..8 {
+        let mut image = wall(SIZE);
+        image.channels.truncate(3);
+        for (_, samples) in &mut image.channels {
+            for (i, x) in samples.iter_mut().enumerate() {
+                *x = side(i) * (0.5 + random(i as u32, frame));
+            }
+        }
+        folder.write(frame, &image);
+    }
+    let sequence = folder.open().unwrap();
+    assert!(sequence.layers == [Layer::Color] && !sequence.has_surfaces());
+    let (frames, _) = denoised(&sequence, true);
+    let relative = |i: usize, c: f32| f64::from(c / side(i) - 1.0).abs();
+    let border = |i: &usize| (SIZE[0] / 2 - 1..=SIZE[0] / 2).contains(&(*i as u32 % SIZE[0]));
+    let beside = (0..frames[4].len()).filter(border).map(|i| relative(i, frames[4][i][0])).sum::<f64>() / 48.0;
+    let mean = frames[4].iter().enumerate().map(|(i, c)| relative(i, c[0])).sum::<f64>() / frames[4].len() as f64;
+    println!("noise of 0.25 becomes {mean:.3}, and {beside:.3} beside the border");
+    assert!(mean < 0.05 && beside < 0.5);
+}
+
+/// Normals that are made of depths are those of the surfaces.
+#[test]
+fn normals_are_made_of_depths() {
+    let folder = Folder::new();
+    let mut image = wall(SIZE);
+    let raster = Raster::whole(SIZE);
+    let camera = Camera::at_rest(1.0, raster);
+    // Two planes that meet in the middle.
+    let n = |i: u32| if i % SIZE[0] < SIZE[0] / 2 { [0.6, 0.0, 0.8] } else { [0.0, -0.6, 0.8] };
+    let depth = |i: u32| {
+        let ray = camera.position([i % SIZE[0], i / SIZE[0]], 1.0, raster);
+        let along: f64 = (0..3).map(|k| ray[k] * n(i)[k]).sum();
+        (-2.0 / along) as f32
+    };
+    image.channels.retain(|(name, _)| !name.starts_with("normal"));
+    image.channels.last_mut().unwrap().1 = (0..SIZE[0] * SIZE[1]).map(depth).collect();
+    folder.write(0, &image);
+    let source = crate::sequence::Source { fov_y: Some(1.0), ..crate::sequence::Source::from(folder.0.as_path()) };
+    let pixels = Sequence::open(source, |_| {}).unwrap().read(0).unwrap();
+    let normals = pixels.get(Layer::Normal).unwrap();
+    // Where they meet, either will do.
+    for i in (0..SIZE[0] * SIZE[1]).filter(|i| !(17..=18).contains(&(i % SIZE[0]))) {
+        let cosine: f64 = (0..3).map(|k| f64::from(normals[3 * i as usize + k]) * n(i)[k]).sum();
+        assert!(cosine > 0.999, "pixel {i}: {:?}", &normals[3 * i as usize..][..3]);
+    }
+}
