@@ -370,9 +370,7 @@ fn a_view_layer_can_be_asked_for() {
     let folder = Folder::new();
     let mut image = plain(0);
     let other = image.channels.clone();
-    for (front, channels) in [("A", image.channels.as_mut_slice())] {
-        channels.iter_mut().for_each(|(name, _)| *name = renamed(front, name));
-    }
+    image.channels.iter_mut().for_each(|(name, _)| *name = renamed("A", name));
     image.channels.extend(
         other.into_iter().map(|(name, samples)| (renamed("B", &name), samples.iter().map(|x| x + 1.0).collect())),
     );

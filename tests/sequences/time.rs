@@ -145,8 +145,11 @@ fn motion_that_leads_astray_is_told() {
     assert!(told.contains("its sign, its unit or its axis is wrong"), "{told}");
 }
 
-/// Albedo of a surface, and its part that is noise.
-fn noise(albedo: &dyn Fn(u32, f32, f32) -> f32, motion: [f32; 2]) -> f32 {
+/// An albedo by a number of its own in each frame, and by its place on the surface.
+type Albedo<'a> = &'a dyn Fn(u32, f32, f32) -> f32;
+
+/// The part of a surface that is taken for noise.
+fn noise(albedo: Albedo<'_>, motion: [f32; 2]) -> f32 {
     let frame = |number: u32| {
         let mut pixels = Pixels(vec![None; Layer::ALL.len()]);
         let count = (SIZE[0] * SIZE[1]) as usize;
@@ -176,14 +179,14 @@ fn textures_are_told_from_noise() {
     let waves = |_: u32, x: f32, y: f32| 0.5 + 0.4 * (0.7 * x).sin() * (0.5 * y).cos();
     let lines = |_: u32, x: f32, _: f32| if (x as i32).rem_euclid(6) == 0 { 0.0 } else { 0.9 };
     for motion in [[0.0, 0.0], [1.3, -0.6], [-0.4, 0.2]] {
-        for (name, texture) in [("checks", &checks as &dyn Fn(u32, f32, f32) -> f32), ("waves", &waves)] {
+        for (name, texture) in [("checks", &checks as Albedo<'_>), ("waves", &waves)] {
             let part = noise(texture, motion);
             assert!(part < 0.01, "{name} that move by {motion:?}: {part} of them is taken for noise");
         }
     }
     let part = noise(&lines, [0.0, 0.0]);
     assert!(part < 0.01, "lines of ink: {part}");
-    let paths: [(&str, &dyn Fn(u32, f32, f32) -> f32); 3] = [
+    let paths: [(&str, Albedo<'_>); 3] = [
         ("any", &|i, _, _| random(i, 1)),
         ("nothing in one of ten", &|i, _, _| if random(i, 2) < 0.1 { 0.0 } else { 0.7 }),
         ("above 1 in one of twenty", &|i, _, _| if random(i, 3) < 0.05 { 4.0 } else { 0.7 }),
