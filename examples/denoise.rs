@@ -1,5 +1,7 @@
 //! Denoises a sequence of EXR files: `cargo run --release --example denoise -- --help`.
 
+#[path = "support/antialias.rs"]
+mod antialias;
 #[path = "support/arguments.rs"]
 mod arguments;
 #[path = "support/blend_in_time.rs"]
@@ -19,6 +21,8 @@ mod gpu;
 mod look_ahead;
 #[path = "support/output.rs"]
 mod output;
+#[path = "support/parallel.rs"]
+mod parallel;
 #[path = "support/replay.rs"]
 mod replay;
 #[path = "support/sequence/mod.rs"]
@@ -36,6 +40,7 @@ use denoise_options::{Options, Request};
 use film::Film;
 use gpu::Gpu;
 use indicatif::{ProgressBar, ProgressStyle};
+use output::Files;
 use sequence::Sequence;
 use sequence::layers::Layer;
 use std::error::Error;
@@ -83,10 +88,8 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     std::fs::create_dir_all(&options.out).map_err(|e| format!("--out {}: {e}", options.out.display()))?;
     let bar = progress("denoising");
     bar.set_length(sequence.frames() as u64);
-    let denoised = look_ahead::denoise(&mut film, ahead.as_ref(), &sequence, &mut |index, image, _, film| {
-        bar.inc(1);
-        output::write(options, &sequence, index, image, film)
-    })?;
+    let mut files = Files { options, sequence: &sequence, after: &|| bar.inc(1) };
+    let denoised = look_ahead::denoise(&mut film, ahead.as_ref(), &sequence, &mut files)?;
     bar.finish_and_clear();
     eprint!("{}", summary::after(&denoised));
     say(&times::table(&denoised.times, None, sequence.size, &gpu));

@@ -7,6 +7,7 @@
 //! Pearson 1933). The odds of the weights are n/m·exp(z|z|/2) with z = Σv/√Σv², the votes over what they would be by chance: a single bright sample is one
 //! vote, whatever its brightness. Samples that an estimate was made of speak for it anyway: with (1 − 1/n)(1 − 1/m) they do not count.
 
+use crate::parallel;
 use crate::sequence::Pixels;
 use crate::sequence::layers::Layer;
 
@@ -15,6 +16,17 @@ pub struct Estimate {
     pub image: Vec<[f32; 3]>,
     /// History lengths, in samples.
     pub lengths: Vec<f32>,
+}
+
+impl Estimate {
+    /// Takes another one in its place, as far as weights say.
+    pub fn mix(&mut self, other: &Self, weights: &[f32]) {
+        for (i, &weight) in weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+            let (here, there) = (self.image[i], other.image[i]);
+            self.image[i] = std::array::from_fn(|c| here[c] + weight * (there[c] - here[c]));
+            self.lengths[i] += weight * (other.lengths[i] - self.lengths[i]);
+        }
+    }
 }
 
 /// Pixels to each side of each of two sums: together a tent of 9×9.
@@ -64,7 +76,7 @@ fn evidence(now: &Estimate, later: &Estimate, pixels: &Pixels, size: [usize; 2])
         let vote = (f - b) * (s - 0.5 * (f + b));
         if depth[i] > 0.0 && vote.is_finite() { [vote, vote * vote] } else { [0.0; 2] }
     };
-    let mut sums: Vec<[f32; 2]> = (0..count).map(vote).collect();
+    let mut sums = parallel::map(count, vote);
     for (length, step) in [(size[0], 1), (size[1], size[0])] {
         sums = box_sums(&box_sums(&sums, length, step), length, step);
     }
@@ -87,7 +99,7 @@ fn box_sums(values: &[[f32; 2]], length: usize, step: usize) -> Vec<[f32; 2]> {
             std::array::from_fn(|c| sum[c] + value[c])
         })
     };
-    (0..values.len()).map(sum).collect()
+    parallel::map(values.len(), sum)
 }
 
 fn luminance([r, g, b]: [f32; 3]) -> f32 {

@@ -8,6 +8,7 @@
 use crate::camera::{Camera, Raster, dot};
 use crate::film::Film;
 use crate::gpu::Gpu;
+use crate::parallel;
 use crate::replay::upload;
 use crate::sequence::Pixels;
 use crate::sequence::layers::Layer;
@@ -49,7 +50,7 @@ impl<'g> CleanAlbedo<'g> {
         Self { gpu, size, film: None, played: 0 }
     }
 
-    /// Cleans a frame's albedo, with what the last frame's was along the motion.
+    /// Cleans a frame's albedo, with what the last frame's was along the motion. Returns how far each pixel's was noise, 0…1, or nothing where none was.
     pub fn clean(
         &mut self,
         now: &mut Pixels,
@@ -57,24 +58,23 @@ impl<'g> CleanAlbedo<'g> {
         motion: &[f32],
         camera: Camera,
         raster: Raster,
-    ) -> Result<(), Error> {
-        let Some(albedo) = now.get(Layer::Albedo).map(<[f32]>::to_vec) else { return Ok(()) };
+    ) -> Result<Vec<f32>, Error> {
+        let Some(albedo) = now.get(Layer::Albedo).map(<[f32]>::to_vec) else { return Ok(Vec::new()) };
         let noise = noise(now, &albedo, last, motion, self.size);
         if self.film.is_none() && noise.iter().all(|&part| part <= NOISY[0]) {
-            return Ok(());
+            return Ok(Vec::new());
         }
         let view = Frame { camera, raster, motion, continues: last.is_some() };
         let clean = self.denoise(now, &albedo, &view)?;
-        let mixed = albedo.as_chunks::<3>().0.iter().zip(&clean).zip(&noise).flat_map(|((given, clean), &part)| {
-            let weight = ((part - NOISY[0]) / (NOISY[1] - NOISY[0])).clamp(0.0, 1.0);
+        let weights: Vec<f32> =
+            noise.into_iter().map(|part| ((part - NOISY[0]) / (NOISY[1] - NOISY[0])).clamp(0.0, 1.0)).collect();
+        let mixed = albedo.as_chunks::<3>().0.iter().zip(&clean).zip(&weights).flat_map(|((given, clean), &weight)| {
             let given = given.map(|x| if x.is_finite() { x } else { 1.0 });
-            std::array::from_fn::<f32, 3, _>(|c| {
-                if weight > 0.0 { given[c] + weight * (clean[c] - given[c]) } else { given[c] }
-            })
+            std::array::from_fn::<f32, 3, _>(|c| given[c] + weight * (clean[c] - given[c]))
         });
         let mixed = mixed.collect();
         now.set(Layer::Albedo, Some(mixed));
-        Ok(())
+        Ok(weights)
     }
 
     fn denoise(&mut self, now: &Pixels, albedo: &[f32], frame: &Frame<'_>) -> Result<Vec<[f32; 3]>, Error> {
@@ -166,7 +166,7 @@ pub fn noise(
         // 2 % of rounding and of sampling between pixels. Fewer than all may miss what lies between.
         count == 9 && (0..3).any(|c| a[c] < 0.98 * low[c] - 0.02 || a[c] > 1.02 * high[c] + 0.02)
     };
-    let off: Vec<bool> = (0..now.len()).map(is_off).collect();
+    let off = parallel::map(now.len(), is_off);
     let surfaces = surfaces(width, now.len(), |i, j| is_same(pixels, i, j));
     let mut counts = vec![[0_u32; 2]; now.len()];
     for (&surface, &off) in surfaces.iter().zip(&off) {

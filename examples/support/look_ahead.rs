@@ -4,14 +4,15 @@
 //! at last, and where light has just changed the future knows the new light. `blend_in_time.rs` says how much of either is taken. In real time there is no
 //! future: this is for files alone.
 
+use crate::antialias::{Antialias, Held};
 use crate::blend_in_time::{Estimate, blend};
 use crate::film::Film;
 use crate::replay::{Exposed, Played, Player};
 use crate::sequence::layers::Layer;
 use crate::sequence::motion::{self, Matches};
-use crate::sequence::{Break, Pixels, Sequence};
+use crate::sequence::{Break, Sequence};
 use crate::times::PassTimes;
-use asvgf::{FilterSettings, Gradient, Settings, View};
+use asvgf::{FilterSettings, Gradient, Settings};
 use std::error::Error;
 
 /// What denoising a sequence told. Frames by their numbers.
@@ -43,15 +44,21 @@ struct Behind {
     seen: Vec<Option<Estimate>>,
 }
 
-/// A denoised frame, by its place, with the film that holds its other images.
-pub type Done<'a> = dyn FnMut(usize, &[[f32; 3]], &Pixels, &mut Film<'_>) -> Result<(), Box<dyn Error>> + 'a;
+/// Where frames go.
+pub trait Sink {
+    /// A frame has been played, by its place: the film holds its images, of its past alone.
+    fn played(&mut self, index: usize, film: &mut Film<'_>) -> Result<(), Box<dyn Error>>;
 
-/// Denoises a sequence, calling back after each frame. With settings for a run backwards, frames see what comes after them.
+    /// A frame has been denoised.
+    fn denoised(&mut self, index: usize, image: &[[f32; 3]]) -> Result<(), Box<dyn Error>>;
+}
+
+/// Denoises a sequence. With settings for a run backwards, frames see what comes after them.
 pub fn denoise(
     film: &mut Film<'_>,
     ahead: Option<&Settings>,
     sequence: &Sequence,
-    done: &mut Done<'_>,
+    sink: &mut dyn Sink,
 ) -> Result<Denoised, Box<dyn Error>> {
     let gpu = film.gpu;
     let mut denoised = Denoised::default();
@@ -60,6 +67,7 @@ pub fn denoise(
         Some(settings) => Some((Film::new(gpu, sequence.size, settings.clone())?, None::<Behind>)),
         None => None,
     };
+    let mut antialias = behind.is_some().then(|| Antialias::new(sequence.size));
     let mut player = Player::new(film, sequence, false);
     for index in 0..sequence.frames() {
         if let Some((film, kept)) = &mut behind
@@ -78,9 +86,9 @@ pub fn denoise(
             denoised.repeated.get_or_insert(number);
         }
         add(&mut readings, &exposed);
-        denoised.times.push(exposed.times);
-        let film = player.film();
-        let mut now = estimate(film)?;
+        sink.played(index, player.film())?;
+        let Exposed { estimate: mut now, shown, motion, begins, times, .. } = exposed;
+        denoised.times.push(times);
         let later = behind.as_mut().and_then(|(_, kept)| {
             let kept = kept.as_mut()?;
             kept.seen.get_mut(index - kept.first)?.take()
@@ -88,8 +96,15 @@ pub fn denoise(
         if let Some(later) = later {
             blend(&mut now, &later, &pixels, sequence.size);
         }
-        done(index, &now.image, &pixels, film)?;
+        let Some(antialias) = &mut antialias else {
+            sink.denoised(index, &now.image)?;
+            continue;
+        };
+        let finished = antialias.push(Held { index, image: now.image, pixels: shown, motion, begins });
+        finished.into_iter().try_for_each(|(index, image)| sink.denoised(index, &image))?;
     }
+    let rest = antialias.map(|mut antialias| antialias.finish()).unwrap_or_default();
+    rest.into_iter().try_for_each(|(index, image)| sink.denoised(index, &image))?;
     denoised.complaint = motion::complaint(&readings);
     Ok(denoised)
 }
@@ -118,18 +133,12 @@ fn backwards(film: &mut Film<'_>, sequence: &Sequence, first: usize) -> Result<B
     for index in (first..end).rev() {
         let pixels = sequence.read(index)?;
         let continues = index + 1 < end && !breaks(index + 1);
-        player.play(&Played { index, pixels: &pixels, continues })?;
+        let exposed = player.play(&Played { index, pixels: &pixels, continues })?;
         if index < first + stretch {
-            let film = player.film();
-            seen[index - first] = Some(estimate(film)?);
+            seen[index - first] = Some(exposed.estimate);
         }
     }
     Ok(Behind { first, seen })
-}
-
-fn estimate(film: &mut Film<'_>) -> Result<Estimate, asvgf::Error> {
-    let lengths = film.numbers(View::HistoryLength)?.into_iter().map(|[length, ..]| length).collect();
-    Ok(Estimate { image: film.numbers(View::Denoised)?, lengths })
 }
 
 fn add(sums: &mut Vec<Matches>, exposed: &Exposed) {

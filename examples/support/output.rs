@@ -3,6 +3,7 @@
 use crate::arguments::Format;
 use crate::denoise_options::Options;
 use crate::film::Film;
+use crate::look_ahead::Sink;
 use crate::sequence::Sequence;
 use crate::tone;
 use asvgf::View;
@@ -10,32 +11,48 @@ use asvgf::image_io::{self, ExrFile};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// Writes the images of a frame in each format.
-pub fn write(
-    options: &Options,
-    sequence: &Sequence,
-    index: usize,
-    denoised: &[[f32; 3]],
-    film: &mut Film<'_>,
-) -> Result<(), Box<dyn Error>> {
-    let [width, height] = sequence.size;
-    for &(name, view) in &options.outputs {
-        for &format in &options.formats {
-            let path = path(options, sequence, index, name, format);
-            match (format, view) {
-                (Format::Exr, View::Denoised) => write_denoised(options, sequence, index, denoised, &path)?,
-                (Format::Exr, _) => image_io::write_exr_rgb(path, width, height, &film.numbers(view)?)?,
-                (Format::Png, View::Denoised) => {
-                    let pixels: Vec<_> = denoised.iter().map(|&color| tone::pixel(color, options.exposure)).collect();
-                    image_io::write_png(path, width, height, &pixels)?;
-                }
-                (Format::Png, _) => {
-                    image_io::write_png(path, width, height, &film.picture(view, options.exposure)?)?;
+/// Writes the files that a command line asks for.
+pub struct Files<'a> {
+    pub options: &'a Options,
+    pub sequence: &'a Sequence,
+    /// Called after each frame.
+    pub after: &'a dyn Fn(),
+}
+
+impl Sink for Files<'_> {
+    fn played(&mut self, index: usize, film: &mut Film<'_>) -> Result<(), Box<dyn Error>> {
+        let Self { options, sequence, .. } = *self;
+        let [width, height] = sequence.size;
+        for &(name, view) in options.outputs.iter().filter(|(_, view)| *view != View::Denoised) {
+            for &format in &options.formats {
+                let path = path(options, sequence, index, name, format);
+                match format {
+                    Format::Exr => image_io::write_exr_rgb(path, width, height, &film.numbers(view)?)?,
+                    Format::Png => image_io::write_png(path, width, height, &film.picture(view, options.exposure)?)?,
                 }
             }
         }
+        Ok(())
     }
-    Ok(())
+
+    fn denoised(&mut self, index: usize, image: &[[f32; 3]]) -> Result<(), Box<dyn Error>> {
+        let Self { options, sequence, .. } = *self;
+        let [width, height] = sequence.size;
+        for &(name, _) in options.outputs.iter().filter(|(_, view)| *view == View::Denoised) {
+            for &format in &options.formats {
+                let path = path(options, sequence, index, name, format);
+                match format {
+                    Format::Exr => write_denoised(options, sequence, index, image, &path)?,
+                    Format::Png => {
+                        let pixels: Vec<_> = image.iter().map(|&color| tone::pixel(color, options.exposure)).collect();
+                        image_io::write_png(path, width, height, &pixels)?;
+                    }
+                }
+            }
+        }
+        (self.after)();
+        Ok(())
+    }
 }
 
 /// Where an image of a frame goes.

@@ -1,15 +1,17 @@
 //! Frames of a sequence on a film, as a host with a renderer of its own hands them in, forwards or backwards in time.
 
+use crate::blend_in_time::Estimate;
 use crate::camera::{Camera, Raster};
 use crate::clean_albedo::CleanAlbedo;
 use crate::film::Film;
 use crate::gpu::Gpu;
+use crate::parallel;
 use crate::sequence::layers::Layer;
 use crate::sequence::motion::{self, Matches};
 use crate::sequence::{Pixels, Sequence};
 use crate::times::PassTimes;
 use asvgf::wgpu::{self, TextureFormat, TextureUsages, TextureView};
-use asvgf::{Error, Gradient, Lambda, Pairs, Shading, Surfaces};
+use asvgf::{Error, FilterSettings, Gradient, Lambda, Pairs, Settings, Shading, Surfaces, View};
 
 /// A frame that is played, and how it follows the one before.
 pub struct Played<'a> {
@@ -20,8 +22,15 @@ pub struct Played<'a> {
     pub continues: bool,
 }
 
-/// What a frame told.
+/// What became of a frame.
 pub struct Exposed {
+    pub estimate: Estimate,
+    /// Its layers as the filter had them.
+    pub shown: Pixels,
+    /// To the frame that was played before, in pixels.
+    pub motion: Vec<f32>,
+    /// It did not continue that frame.
+    pub begins: bool,
     pub times: PassTimes,
     /// It has the noise of the frame before, as so many before it: it was denoised by itself.
     pub repeated: bool,
@@ -41,6 +50,8 @@ pub struct Player<'a, 'g> {
     /// The number of the next frame: the denoiser's numbers follow one another, whatever those of the files do.
     played: u32,
     albedo: CleanAlbedo<'g>,
+    /// For surfaces whose albedo is noise.
+    gloss: Option<Film<'g>>,
 }
 
 /// Whether a renderer takes the same random numbers in each frame, as those with a fixed seed do. One frame that is held tells
@@ -75,6 +86,7 @@ impl<'a, 'g> Player<'a, 'g> {
             seed: FixedSeed::default(),
             played: sequence.files[0].number,
             albedo,
+            gloss: None,
         }
     }
 
@@ -107,12 +119,25 @@ impl<'a, 'g> Player<'a, 'g> {
         }
         let mut shown = pixels.clone();
         let known = last.as_ref().filter(|_| !begins).map(|(_, last)| last);
-        self.albedo.clean(&mut shown, known, &motion, cameras[0], raster)?;
+        let noise = self.albedo.clean(&mut shown, known, &motion, cameras[0], raster)?;
         let views = Views::new(self.film.gpu, sequence, &shown, &motion, self.backwards);
         let times = expose(self.film, &views, cameras[0], raster, self.played, sequence.in_place)?;
+        let mut estimate = estimate(self.film)?;
+        if self.gloss.is_some() || noise.iter().any(|&part| part > 0.0) {
+            let mut film = match self.gloss.take() {
+                Some(film) => film,
+                None => Film::new(self.film.gpu, sequence.size, glossy(self.film.denoiser.settings()))?,
+            };
+            if begins {
+                film.denoiser.reset();
+            }
+            expose(&mut film, &views, cameras[0], raster, self.played, sequence.in_place)?;
+            estimate.mix(&self::estimate(&mut film)?, &noise);
+            self.gloss = Some(film);
+        }
         self.played += 1;
         self.last = Some((index, pixels.clone()));
-        Ok(Exposed { times, repeated, cut, readings })
+        Ok(Exposed { estimate, shown, motion, begins, times, repeated, cut, readings })
     }
 
     /// The camera of a frame. Without depths, all is a wall in front of one that rests.
@@ -143,12 +168,29 @@ impl<'a, 'g> Player<'a, 'g> {
     }
 }
 
+/// What the last frame on a film became.
+fn estimate(film: &mut Film<'_>) -> Result<Estimate, Error> {
+    let lengths = film.numbers(View::HistoryLength)?.into_iter().map(|[length, ..]| length).collect();
+    Ok(Estimate { image: film.numbers(View::Denoised)?, lengths })
+}
+
+/// σ of the luminance stop on gloss.
+const GLOSSY: f32 = 1.5;
+
+/// Settings for surfaces that show others. Failure: the lamp in a metal sphere was blurred to twice its size. Reason: what they show has borders of light that no
+/// guide knows, and noise that is less than that of diffuse light. Rule: a tighter stop, and no plane through the light, which overshoots at such borders.
+fn glossy(settings: &Settings) -> Settings {
+    let sigma_luminance = settings.filter.sigma_luminance.min(GLOSSY);
+    let filter = FilterSettings { sigma_luminance, local_linear_fit: false, ..settings.filter.clone() };
+    Settings { filter, ..settings.clone() }
+}
+
 /// Rounds in which a motion is inverted.
 const ROUNDS: usize = 6;
 
 /// The motion to the next frame, n, of the motion m from there: what is at p now is at p + n then, so that n(p) = −m(p + n(p)), solved by
 /// iteration from n = −m.
-fn inverted(motion: &[f32], [width, height]: [u32; 2]) -> Vec<f32> {
+pub fn inverted(motion: &[f32], [width, height]: [u32; 2]) -> Vec<f32> {
     let (m, _) = motion.as_chunks::<2>();
     let finite = |m: [f32; 2]| m.map(|x| if x.is_finite() { x } else { 0.0 });
     let at = |x: i64, y: i64| {
@@ -170,7 +212,7 @@ fn inverted(motion: &[f32], [width, height]: [u32; 2]) -> Vec<f32> {
         }
         n
     };
-    (0..m.len()).flat_map(invert).collect()
+    parallel::map(m.len(), invert).into_iter().flatten().collect()
 }
 
 /// Pixels at rest that have to show the same noise, of those with light, before it is taken to be repeated.

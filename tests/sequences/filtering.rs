@@ -2,7 +2,7 @@
 
 use crate::export::{self, Export};
 use crate::film::Film;
-use crate::folder::{Folder, add, random, wall};
+use crate::folder::{Folder, Frames, add, random, wall};
 use crate::gpu::Gpu;
 use crate::layers::Layer;
 use crate::sequence::Sequence;
@@ -28,10 +28,7 @@ fn told(sequence: &Sequence, settings: Settings) -> (Vec<Vec<[f32; 3]>>, Option<
     let gpu = Gpu::new().unwrap();
     let mut film = Film::new(&gpu, sequence.size, settings).unwrap();
     let mut frames = Vec::new();
-    let denoised = look_ahead::denoise(&mut film, None, sequence, &mut |_, image, _, _| {
-        frames.push(image.to_vec());
-        Ok(())
-    });
+    let denoised = look_ahead::denoise(&mut film, None, sequence, &mut Frames(&mut frames));
     let denoised = denoised.unwrap();
     assert!(denoised.times.iter().all(|passes| !passes.is_empty()));
     (frames, denoised.repeated)

@@ -1,8 +1,11 @@
 //! A folder with a sequence under construction.
 
+use crate::film::Film;
 use crate::layers::Layer;
+use crate::look_ahead::Sink;
 use crate::sequence::{Sequence, SequenceError};
 use asvgf::image_io::{Channels, write_exr};
+use std::error::Error;
 use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -40,6 +43,21 @@ impl Folder {
 impl Drop for Folder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Keeps denoised frames.
+pub struct Frames<'a>(pub &'a mut Vec<Vec<[f32; 3]>>);
+
+impl Sink for Frames<'_> {
+    fn played(&mut self, _: usize, _: &mut Film<'_>) -> Result<(), Box<dyn Error>> {
+        Ok(())
+    }
+
+    fn denoised(&mut self, index: usize, image: &[[f32; 3]]) -> Result<(), Box<dyn Error>> {
+        assert_eq!(index, self.0.len(), "frames come in order, each once");
+        self.0.push(image.to_vec());
+        Ok(())
     }
 }
 

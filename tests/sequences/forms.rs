@@ -414,14 +414,13 @@ fn what_goes_in_comes_out() {
     }
     let out = Folder::new();
     let sequence = folder.open().unwrap();
-    let gpu = crate::gpu::Gpu::new().unwrap();
-    let mut film = crate::film::Film::new(&gpu, sequence.size, asvgf::Settings::adaptive()).unwrap();
-    let mut write = |extra: &str| {
+    let write = |extra: &str| {
         let line = format!("{} --out {}{extra}", folder.0.display(), out.0.display());
         let Ok(Request::Denoise(options)) = parse(line.split(' ').map(Into::into)) else { panic!("{line}") };
         assert_eq!(options.formats[0], Format::Exr);
         let gray = vec![[0.5; 3]; (SIZE[0] * SIZE[1]) as usize];
-        crate::output::write(&options, &sequence, 0, &gray, &mut film).unwrap();
+        let mut files = crate::output::Files { options: &options, sequence: &sequence, after: &|| {} };
+        crate::look_ahead::Sink::denoised(&mut files, 0, &gray).unwrap();
     };
     write("");
     let file = ExrFile::read(out.0.join("denoised_000007.exr")).unwrap();

@@ -2,6 +2,8 @@
 #![cfg(all(feature = "path-tracer", feature = "image", feature = "metrics"))]
 #![allow(dead_code, reason = "the examples' modules, of which each example uses its part")]
 
+#[path = "../../examples/support/antialias.rs"]
+mod antialias;
 #[path = "../../examples/support/arguments.rs"]
 mod arguments;
 #[path = "../../examples/support/blend_in_time.rs"]
@@ -22,6 +24,8 @@ mod gpu;
 mod look_ahead;
 #[path = "../../examples/support/output.rs"]
 mod output;
+#[path = "../../examples/support/parallel.rs"]
+mod parallel;
 #[path = "../../examples/support/replay.rs"]
 mod replay;
 #[path = "../../examples/support/scoring.rs"]

@@ -3,7 +3,7 @@
 use crate::camera::{Camera, Raster};
 use crate::clean_albedo;
 use crate::film::Film;
-use crate::folder::{Folder, add, random, wall};
+use crate::folder::{Folder, Frames, add, random, wall};
 use crate::gpu::Gpu;
 use crate::layers::Layer;
 use crate::look_ahead::{self, Denoised};
@@ -24,10 +24,7 @@ fn denoised(sequence: &Sequence, ahead: bool) -> (Vec<Vec<[f32; 3]>>, Denoised) 
     let mut film = Film::new(&gpu, sequence.size, settings()).unwrap();
     let backwards = ahead.then(|| look_ahead::settings(&settings()));
     let mut frames = Vec::new();
-    let told = look_ahead::denoise(&mut film, backwards.as_ref(), sequence, &mut |_, image, _, _| {
-        frames.push(image.to_vec());
-        Ok(())
-    });
+    let told = look_ahead::denoise(&mut film, backwards.as_ref(), sequence, &mut Frames(&mut frames));
     (frames, told.unwrap())
 }
 
