@@ -3,15 +3,16 @@
 //! Failure: Cycles' albedo of a metal is that of what one path saw in it, with zeros and values above 10; light over that is noise of its own, and
 //! the metal of `blender_room` had twice the error. Reason: radiance and albedo are two random numbers of one path, and the quotient of their means is the smooth
 //! thing, not the mean of their quotients. Rule: where an albedo changes from frame to frame beyond what lies around it, it is averaged as light is,
-//! with stops that are tighter because its noise is less.
+//! with stops that are tighter because its noise is less. What the light belies is not used at all.
 
-use crate::camera::{Camera, Raster, dot};
+use crate::camera::{Camera, Raster};
 use crate::film::Film;
 use crate::gpu::Gpu;
 use crate::parallel;
 use crate::replay::upload;
 use crate::sequence::Pixels;
 use crate::sequence::layers::Layer;
+use crate::sequence::surfaces::{is_same, one, surfaces, three};
 use asvgf::{Error, FilterSettings, Gradient, Settings, Shading, Surfaces, View};
 
 /// σ of the luminance stop for an albedo.
@@ -35,6 +36,8 @@ pub struct CleanAlbedo<'g> {
     size: [u32; 2],
     film: Option<Film<'g>>,
     played: u32,
+    /// Of each pixel of the last frame, whether its albedo was not believed.
+    distrusted: Vec<bool>,
 }
 
 /// How a frame is seen, and how it follows the last one.
@@ -47,10 +50,10 @@ struct Frame<'a> {
 
 impl<'g> CleanAlbedo<'g> {
     pub fn new(gpu: &'g Gpu, size: [u32; 2]) -> Self {
-        Self { gpu, size, film: None, played: 0 }
+        Self { gpu, size, film: None, played: 0, distrusted: Vec::new() }
     }
 
-    /// Cleans a frame's albedo, with what the last frame's was along the motion. Returns how far each pixel's was noise, 0…1, or nothing where none was.
+    /// Cleans a frame's albedo, with what the last frame's was along the motion. Returns how far each pixel's was noise or wrong, 0…1, or nothing where none was.
     pub fn clean(
         &mut self,
         now: &mut Pixels,
@@ -60,9 +63,10 @@ impl<'g> CleanAlbedo<'g> {
         raster: Raster,
     ) -> Result<Vec<f32>, Error> {
         let Some(albedo) = now.get(Layer::Albedo).map(<[f32]>::to_vec) else { return Ok(Vec::new()) };
-        let noise = noise(now, &albedo, last, motion, self.size);
+        let surfaces = surfaces(now, self.size);
+        let noise = noise(now, &albedo, last, motion, &surfaces, self.size);
         if self.film.is_none() && noise.iter().all(|&part| part <= NOISY[0]) {
-            return Ok(Vec::new());
+            return Ok(self.distrust(now, albedo, motion, &surfaces, last.is_some()));
         }
         let view = Frame { camera, raster, motion, continues: last.is_some() };
         let clean = self.denoise(now, &albedo, &view)?;
@@ -73,8 +77,41 @@ impl<'g> CleanAlbedo<'g> {
             std::array::from_fn::<f32, 3, _>(|c| given[c] + weight * (clean[c] - given[c]))
         });
         let mixed = mixed.collect();
-        now.set(Layer::Albedo, Some(mixed));
-        Ok(weights)
+        let wrong = self.distrust(now, mixed, motion, &surfaces, last.is_some());
+        Ok(weights
+            .into_iter()
+            .enumerate()
+            .map(|(i, weight)| wrong.get(i).copied().unwrap_or_default().max(weight))
+            .collect())
+    }
+
+    /// Gives a frame its albedo, but for surfaces that it says nothing true of: 1 for those, 0 for others, or nothing where there are none.
+    fn distrust(
+        &mut self,
+        now: &mut Pixels,
+        mut albedo: Vec<f32>,
+        motion: &[f32],
+        surfaces: &[usize],
+        continues: bool,
+    ) -> Vec<f32> {
+        let before = std::mem::take(&mut self.distrusted);
+        let wrong = distrusted(now, &albedo, surfaces, |i| {
+            let [x, y] = [0, 1].map(|k| {
+                (if k == 0 { i as u32 % self.size[0] } else { i as u32 / self.size[0] }) as f32 + motion[2 * i + k]
+            });
+            let inside = x >= 0.0 && y >= 0.0 && x < self.size[0] as f32 - 0.5 && y < self.size[1] as f32 - 0.5;
+            continues
+                && inside
+                && before.get(y.round() as usize * self.size[0] as usize + x.round() as usize) == Some(&true)
+        });
+        for (i, _) in wrong.iter().enumerate().filter(|(_, wrong)| **wrong) {
+            albedo[3 * i..3 * i + 3].fill(1.0);
+        }
+        now.set(Layer::Albedo, Some(albedo));
+        let any = wrong.contains(&true);
+        let weights = wrong.iter().filter(|_| any).map(|&wrong| f32::from(u8::from(wrong))).collect();
+        self.distrusted = wrong;
+        weights
     }
 
     fn denoise(&mut self, now: &Pixels, albedo: &[f32], frame: &Frame<'_>) -> Result<Vec<[f32; 3]>, Error> {
@@ -124,16 +161,12 @@ pub fn noise(
     albedo: &[f32],
     last: Option<&Pixels>,
     motion: &[f32],
+    surfaces: &[usize],
     [width, height]: [u32; 2],
 ) -> Vec<f32> {
     let [width, height] = [width, height].map(|side| side as usize);
     let (now, _) = albedo.as_chunks::<3>();
-    let is_same = |last: &Pixels, i: usize, j: usize| {
-        let normals = [three(pixels, Layer::Normal, i), three(last, Layer::Normal, j)].map(|n| n.map(f64::from));
-        one(pixels, Layer::Id, i) == one(last, Layer::Id, j)
-            && (one(last, Layer::Depth, j) / one(pixels, Layer::Depth, i) - 1.0).abs() < 0.1
-            && dot(normals[0], normals[1]) > 0.8
-    };
+    let is_same = |last: &Pixels, i: usize, j: usize| is_same(pixels, i, last, j);
     let is_off = |i: usize| {
         let a = now[i];
         // A light that reflects nothing is black by itself.
@@ -167,7 +200,6 @@ pub fn noise(
         count == 9 && (0..3).any(|c| a[c] < 0.98 * low[c] - 0.02 || a[c] > 1.02 * high[c] + 0.02)
     };
     let off = parallel::map(now.len(), is_off);
-    let surfaces = surfaces(width, now.len(), |i, j| is_same(pixels, i, j));
     let mut counts = vec![[0_u32; 2]; now.len()];
     for (&surface, &off) in surfaces.iter().zip(&off) {
         counts[surface][0] += 1;
@@ -190,33 +222,34 @@ pub fn noise(
 /// Pixels below which a surface is a splinter.
 const SPLINTER: u32 = 32;
 
-/// Of each pixel, the first pixel of the surface that it is part of: neighbours in a row or a column that are the same one are connected.
-fn surfaces(width: usize, count: usize, is_same: impl Fn(usize, usize) -> bool) -> Vec<usize> {
-    fn root(parents: &mut [usize], mut i: usize) -> usize {
-        while parents[i] != i {
-            parents[i] = parents[parents[i]];
-            i = parents[i];
-        }
-        i
-    }
-    let mut parents: Vec<usize> = (0..count).collect();
-    for i in 0..count {
-        let left = (!i.is_multiple_of(width)).then(|| i - 1);
-        for j in [left, i.checked_sub(width)].into_iter().flatten().filter(|&j| is_same(i, j)) {
-            let (a, b) = (root(&mut parents, i), root(&mut parents, j));
-            parents[a.max(b)] = a.min(b);
-        }
-    }
-    (0..count).map(|i| root(&mut parents, i)).collect()
-}
+/// Albedo of which the filter takes no notice.
+const BLACK: f32 = 0.02;
 
-/// A layer's number in a pixel, 0 if there is none.
-fn one(pixels: &Pixels, layer: Layer, i: usize) -> f32 {
-    pixels.get(layer).and_then(|samples| samples.get(i).copied()).unwrap_or_default()
-}
+/// Part of a surface's light that comes from where its albedo is black, from which on it is not believed, and as far down as which it is not again.
+const BELIED: [f32; 2] = [0.25, 0.1];
 
-/// A layer's three numbers in a pixel.
-fn three(pixels: &Pixels, layer: Layer, i: usize) -> [f32; 3] {
-    let samples = pixels.get(layer).unwrap_or_default();
-    std::array::from_fn(|c| samples.get(3 * i + c).copied().unwrap_or_default())
+/// Pixels whose albedo the light belies. Failure: Mitsuba's albedo of a metal sphere is 0 where it reflects a room, and 10 in its middle; light over that was
+/// 50 times too bright at the rim, and spread from there. Reason: an albedo that does not follow the light makes differences instead of taking them
+/// away. Rule: a surface that sends a quarter of its light from where its albedo is black is filtered as it is.
+fn distrusted(pixels: &Pixels, albedo: &[f32], surfaces: &[usize], before: impl Fn(usize) -> bool) -> Vec<bool> {
+    let (albedo, _) = albedo.as_chunks::<3>();
+    let light = |i: usize| {
+        let [color, emission] = [three(pixels, Layer::Color, i), three(pixels, Layer::Emission, i)];
+        let light: f32 = (0..3).map(|c| (color[c] - emission[c]).max(0.0)).sum();
+        if light.is_finite() { f64::from(light) } else { 0.0 }
+    };
+    // Of each surface: all light, that from where it is black, pixels, and those that were not believed before.
+    let mut sums = vec![[0.0_f64; 4]; surfaces.len()];
+    for (i, &surface) in surfaces.iter().enumerate().filter(|(i, _)| one(pixels, Layer::Depth, *i) > 0.0) {
+        let light = light(i);
+        let black = albedo[i].iter().all(|&x| x < BLACK);
+        let terms = [light, if black { light } else { 0.0 }, 1.0, f64::from(u8::from(before(i)))];
+        sums[surface].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+    }
+    let is_wrong = |&[light, black, count, before]: &[f64; 4]| {
+        let limit = BELIED[usize::from(2.0 * before > count)];
+        count >= f64::from(SPLINTER) && black > f64::from(limit) * light
+    };
+    let wrong: Vec<bool> = sums.iter().map(is_wrong).collect();
+    surfaces.iter().map(|&surface| wrong[surface]).collect()
 }

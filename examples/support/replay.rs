@@ -104,7 +104,7 @@ impl<'a, 'g> Player<'a, 'g> {
         let motion = self.motion(pixels, last.as_ref().map(|(_, last)| last), cameras);
         let at = |i: usize| Some([motion[2 * i], motion[2 * i + 1]]).filter(|m| m.iter().all(|x| x.is_finite()));
         let told = last.as_ref().filter(|_| sequence.has_surfaces());
-        let found = told.map_or(Matches::default(), |(_, last)| motion::matches(pixels, last, raster, at));
+        let found = told.map_or(Matches::default(), |(_, last)| motion::matches(pixels, last, raster, false, at));
         let cut = found.compared > 0 && found.lost() >= CUT;
         let readings = match told.filter(|_| sequence.has(Layer::Motion) && !self.backwards) {
             Some((_, last)) => motion::readings(pixels, last, &motion, raster),

@@ -1,11 +1,11 @@
-//! An EXR file, and the layers that the example `denoise` finds in it.
+//! An EXR file, the layers that the example `denoise` finds in it, and the file written again.
 #![no_main]
 
 #[allow(dead_code, reason = "shared with the example, which uses the rest")]
-#[path = "../../examples/support/layers.rs"]
+#[path = "../../examples/support/sequence/layers.rs"]
 mod layers;
 
-use asvgf::image_io;
+use asvgf::image_io::ExrFile;
 use layers::{Layer, Names};
 use libfuzzer_sys::fuzz_target;
 use std::fs;
@@ -20,12 +20,21 @@ static FILE: LazyLock<PathBuf> = LazyLock::new(|| {
 
 fuzz_target!(|input: &[u8]| {
     fs::write(&*FILE, input).expect("a file to write");
-    let Ok(image) = image_io::read_exr(&*FILE) else { return };
+    let Ok(mut file) = ExrFile::read(&*FILE) else { return };
+    let (image, window) = (file.channels(), file.data_window());
+    assert_eq!([image.width, image.height], window.size);
     let area = image.width as usize * image.height as usize;
     assert!(area > 0 && image.channels.iter().all(|(_, samples)| samples.len() == area));
-    for layer in Layer::ALL {
-        if let Ok(Some(place)) = layers::find(layer, &Names::new(), &image) {
-            assert_eq!(place.channels.len(), layer.components().len());
-        }
+    for name in ["worldToCamera", "worldToNDC", "screenWindowWidth", "Camera"] {
+        let _ = file.attribute(name);
     }
+    let Ok(places) = layers::find(&Names::new(), None, &image) else { return };
+    for (layer, place) in Layer::ALL.into_iter().zip(&places.of) {
+        assert!(place.as_ref().is_none_or(|place| place.channels.len() == layer.components().len()));
+    }
+    // As `denoise` writes it, with and without all else: either works, or says why not.
+    let first = &image.channels[0];
+    let _ = file.with_channels(&first.0, &[("R".to_owned(), first.1.clone())]).write(&*FILE);
+    file.replace(&image.channels[..1]);
+    let _ = file.write(&*FILE);
 });

@@ -8,6 +8,7 @@ use crate::gpu::Gpu;
 use crate::layers::Layer;
 use crate::look_ahead::{self, Denoised};
 use crate::sequence::motion::{READINGS, complaint, readings};
+use crate::sequence::surfaces::surfaces;
 use crate::sequence::{Pixels, Sequence};
 use asvgf::Settings;
 
@@ -163,7 +164,14 @@ fn noise(albedo: Albedo<'_>, motion: [f32; 2]) -> f32 {
     };
     let (before, now) = (frame(0), frame(1));
     let vectors = motion.repeat((SIZE[0] * SIZE[1]) as usize);
-    let parts = clean_albedo::noise(&now, now.get(Layer::Albedo).unwrap(), Some(&before), &vectors, SIZE);
+    let parts = clean_albedo::noise(
+        &now,
+        now.get(Layer::Albedo).unwrap(),
+        Some(&before),
+        &vectors,
+        &surfaces(&now, SIZE),
+        SIZE,
+    );
     parts.iter().sum::<f32>() / parts.len() as f32
 }
 
@@ -283,4 +291,69 @@ fn normals_are_made_of_depths() {
         let cosine: f64 = (0..3).map(|k| f64::from(normals[3 * i as usize + k]) * n(i)[k]).sum();
         assert!(cosine > 0.999, "pixel {i}: {:?}", &normals[3 * i as usize..][..3]);
     }
+}
+
+/// A surface whose albedo is black where it shines, and white where it does not: the albedo is not used. Ink that is dark stays ink.
+#[test]
+fn an_albedo_that_the_light_belies_is_not_used() {
+    let folder = Folder::new();
+    let shines = |i: usize| (i as u32 % SIZE[0]) < SIZE[0] / 2;
+    let frames = |belied: bool| {
+        for frame in 0..8 {
+            let mut image = wall(SIZE);
+            add(&mut image, Layer::Albedo, &[0.0; 3]);
+            for (name, samples) in &mut image.channels {
+                for (i, x) in samples.iter_mut().enumerate() {
+                    let light = 0.5 + random(i as u32, frame);
+                    let (black, bright) = if belied { (shines(i), shines(i)) } else { (!shines(i), shines(i)) };
+                    match name.as_str() {
+                        "albedo.R" | "albedo.G" | "albedo.B" => *x = if black { 0.0 } else { 1.0 },
+                        "R" | "G" | "B" => *x = if bright { light } else { 0.0 },
+                        _ => {}
+                    }
+                }
+            }
+            folder.write(frame, &image);
+        }
+        denoised(&folder.open().unwrap(), true).0
+    };
+    for belied in [true, false] {
+        for (number, frame) in frames(belied).iter().enumerate() {
+            let off = |i: usize| f64::from((frame[i][0] - if shines(i) { 1.0 } else { 0.0 }).abs());
+            // Away from the border, which light alone tells.
+            let inner = (0..frame.len()).filter(|i| (i % 36).abs_diff(18) > 4);
+            let worst = inner.map(off).fold(0.0, f64::max);
+            println!("{belied}: frame {number} is off by {worst:.3} at most");
+            assert!(worst < 0.35, "frame {number}: {worst}");
+        }
+    }
+}
+
+/// Checks finer than pixels, seen at another place in each frame: each frame is black or white, all together are grey.
+#[test]
+fn edges_are_as_the_whole_pixel_shows_them() {
+    let folder = Folder::new();
+    let white = |i: u32, frame: u32| (i % SIZE[0] + i / SIZE[0] + frame).is_multiple_of(2);
+    for frame in 0..7 {
+        let mut image = wall(SIZE);
+        add(&mut image, Layer::Albedo, &[0.0; 3]);
+        for (name, samples) in &mut image.channels {
+            let values = samples.iter_mut().enumerate().map(|(i, x)| (x, white(i as u32, frame)));
+            match name.as_str() {
+                "albedo.R" | "albedo.G" | "albedo.B" | "R" | "G" | "B" => {
+                    values.for_each(|(x, w)| *x = if w { 0.8 } else { 0.2 })
+                }
+                _ => {}
+            }
+        }
+        folder.write(frame, &image);
+    }
+    let sequence = folder.open().unwrap();
+    let contrast = |frame: &[[f32; 3]]| (f64::from(frame[100][0]) - f64::from(frame[101][0])).abs();
+    let (alone, seen) = (denoised(&sequence, false).0, denoised(&sequence, true).0);
+    assert!(contrast(&alone[3]) > 0.5, "{}", contrast(&alone[3]));
+    // (3 + 2·1)·0.8 and 2·2·0.2, over 9, and the other way round: 0.6/9 apart.
+    assert!(contrast(&seen[3]) < 0.1, "{}", contrast(&seen[3]));
+    let mean = seen[3].iter().map(|c| f64::from(c[0])).sum::<f64>() / seen[3].len() as f64;
+    assert!((mean - 0.5).abs() < 0.02, "{mean}");
 }

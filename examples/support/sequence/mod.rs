@@ -7,6 +7,7 @@ mod guides;
 pub mod layers;
 mod manifest;
 pub mod motion;
+pub mod surfaces;
 
 use crate::camera::{Camera, Raster};
 use asvgf::image_io::{Channels, ExrFile, Window};

@@ -55,7 +55,7 @@ pub fn readings(now: &Pixels, before: &Pixels, motion: &[f32], raster: Raster) -
         .map(|[a, b, c, d]| {
             let reading = |m: [f32; 2]| [a * m[0] + b * m[1], c * m[0] + d * m[1]];
             // All readings are of the same pixels: those in which the one farthest apart leads somewhere else.
-            matches(now, before, raster, |i| {
+            matches(now, before, raster, true, |i| {
                 let m = [motion[2 * i], motion[2 * i + 1]];
                 let scaled = [m[0] * raster.size[0] as f32, m[1] * raster.size[1] as f32];
                 (moved(m) >= 1.0 || (moved(m) < 0.5 && moved(scaled) >= 4.0)).then(|| reading(m))
@@ -75,15 +75,22 @@ fn in_pixels(matrix: [f32; 4], raster: Raster) -> [f32; 4] {
     [unit(matrix[0], width), matrix[1], matrix[2], unit(matrix[3], height)]
 }
 
-/// Compares surfaces of two frames along a motion, for pixels that have one.
-pub fn matches(now: &Pixels, before: &Pixels, raster: Raster, motion: impl Fn(usize) -> Option<[f32; 2]>) -> Matches {
+/// Compares surfaces of two frames along a motion, for pixels that have one. By their albedo too, if that is asked for: textures tell small errors of
+/// motion, but fine ones are another in each frame.
+pub fn matches(
+    now: &Pixels,
+    before: &Pixels,
+    raster: Raster,
+    by_albedo: bool,
+    motion: impl Fn(usize) -> Option<[f32; 2]>,
+) -> Matches {
     let [width, height] = raster.size;
     let count = (width * height) as usize;
     let get = |pixels, layer| Pixels::get(pixels, layer).unwrap_or_default();
     let (depth, depth_before) = (get(now, Layer::Depth), get(before, Layer::Depth));
     let (normal, normal_before) = (get(now, Layer::Normal), get(before, Layer::Normal));
     let ids = now.get(Layer::Id).zip(before.get(Layer::Id));
-    let albedos = now.get(Layer::Albedo).zip(before.get(Layer::Albedo));
+    let albedos = now.get(Layer::Albedo).zip(before.get(Layer::Albedo)).filter(|_| by_albedo);
     let three = |samples: &[f32], i: usize| [samples[3 * i], samples[3 * i + 1], samples[3 * i + 2]].map(f64::from);
     let mut matches = Matches::default();
     for i in (0..count).step_by((count / PIXELS) | 1).filter(|&i| depth[i] > 0.0 && depth[i].is_finite()) {
