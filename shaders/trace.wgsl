@@ -4,7 +4,7 @@
 // The pixel that its stratum chose as gradient sample repeats last frame's path instead: last frame's surface point on this
 // frame's geometry, seen from last frame's camera, with last frame's random numbers, in this frame's light.
 
-#import asvgf::frame::{frame, ray_direction, ray_origin, sample_point, inside, Camera}
+#import asvgf::frame::{frame, direction, sample_point, inside, Camera}
 #import asvgf::random::{seed_of, uniform_float}
 #import asvgf::ray::Ray
 #ifdef FEW_TRIANGLES
@@ -56,19 +56,17 @@ const MOST_RAYS: f32 = 65504.0;
 fn visible_surface(id: u32, camera: Camera, pixel: vec2<f32>, before: bool) -> Surface {
     let v = visible(id);
     let now = triangle_now(v);
-    let point = sample_point(camera, pixel);
-    let eye = ray_origin(camera, point);
-    let ray = ray_direction(camera, point);
+    let ray = direction(camera, sample_point(camera, pixel));
 #ifdef INSTANCED
     var then = now;
     if before {
         then = triangle_before(v);
     }
-    let weights = barycentrics(then, eye, ray);
-    return surface_at(v, now, weights, at(now, weights) - eye);
+    let weights = barycentrics(then, camera.eye, ray);
+    return surface_at(v, now, weights, at(now, weights) - camera.eye);
 #else
-    let weights = barycentrics(now, eye, ray);
-    return surface_at(v, now, weights, at(now, weights) - eye);
+    let weights = barycentrics(now, camera.eye, ray);
+    return surface_at(v, now, weights, at(now, weights) - camera.eye);
 #endif
 }
 
@@ -183,7 +181,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         textureStore(radiance_out, pixel, vec4(0u));
         textureStore(albedo_out, pixel, vec4(0.0, 0.0, 0.0, 1.0));
 #ifdef DIRECT_EMISSION
-        let sky = environment_radiance(normalize(ray_direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy)))));
+        let sky = environment_radiance(normalize(direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy)))));
         textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(sky)), 0u, 0u));
 #endif
 #endif

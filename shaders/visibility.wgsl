@@ -3,7 +3,7 @@
 // The visibility buffer holds one u32 per pixel; vertices come from the lookup table, for this frame and the previous
 // one. The motion is exact: the same barycentric weights on the previous frame's vertices, through the previous camera.
 
-#import asvgf::frame::{frame, ray_direction, ray_origin, project, sample_point, inside}
+#import asvgf::frame::{frame, direction, project, sample_point, inside}
 #import asvgf::ray::Ray
 #ifdef FEW_TRIANGLES
 #import asvgf::few_triangles::{prepare_traversal, closest_hit}
@@ -23,11 +23,6 @@
 @group(0) @binding(4) var object_out: texture_storage_2d<r32uint, write>;
 #endif
 
-fn primary_ray(pixel: vec2<f32>) -> Ray {
-    let point = sample_point(frame.camera, pixel);
-    return Ray(ray_origin(frame.camera, point), ray_direction(frame.camera, point));
-}
-
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef FEW_TRIANGLES
@@ -37,7 +32,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if !inside(pixel) {
         return;
     }
-    let ray = primary_ray(vec2<f32>(id.xy));
+    let ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
     let hit = closest_hit(ray);
     var id_seen = NO_TRIANGLE;
     var object = NO_TRIANGLE;

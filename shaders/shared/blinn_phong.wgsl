@@ -1,6 +1,6 @@
 #define_import_path asvgf::blinn_phong
 
-#import asvgf::frame::{frame, ray_direction, ray_origin, sample_point}
+#import asvgf::frame::{frame, direction, sample_point}
 #import asvgf::scene::NO_TRIANGLE
 #import asvgf::surface::{Visible, Triangle, visible, triangle_now, triangle_before, barycentrics, at}
 #import asvgf::material::{Surface, surface_at, demodulation, PI}
@@ -64,9 +64,8 @@ fn shade_pair(id: u32, pixel: vec2<i32>) -> vec2<f32> {
     let v = visible(id);
     let now = triangle_now(v);
     let before = triangle_before(v);
-    let point = sample_point(frame.previous, vec2<f32>(pixel));
-    let eye = ray_origin(frame.previous, point);
-    let weights = barycentrics(before, eye, ray_direction(frame.previous, point));
+    let eye = frame.previous.eye;
+    let weights = barycentrics(before, eye, direction(frame.previous, sample_point(frame.previous, vec2<f32>(pixel))));
     let surface_now = surface_at(v, now, weights, at(now, weights) - eye);
     let surface_before = surface_at(v, before, weights, at(before, weights) - eye);
     var sum_now = vec3(0.0);

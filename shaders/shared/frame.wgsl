@@ -89,11 +89,6 @@ fn ray_direction(camera: Camera, image_point: vec2<f32>) -> vec3<f32> {
     return select(direction(camera, image_point), camera.forward, is_orthographic(camera));
 }
 
-// Where that point is at depth 0.
-fn ray_origin(camera: Camera, image_point: vec2<f32>) -> vec3<f32> {
-    return camera.eye + select(vec3(0.0), direction(camera, image_point) - camera.forward, is_orthographic(camera));
-}
-
 // The length of which tolerances are parts: the depth. In an orthographic view, where the depth tells nothing of sizes, the image's width.
 fn scale_at(camera: Camera, depth: f32) -> f32 {
     return select(depth, f32(frame.size.x) * inverseSqrt(camera.inverse_du), is_orthographic(camera));

@@ -4,6 +4,7 @@ mod cleaning;
 mod copies;
 mod formats;
 mod levels;
+mod orthographic;
 mod pairless;
 mod radiance;
 mod recording;
