@@ -106,6 +106,9 @@ fn notes(sequence: &Sequence) -> Vec<String> {
         };
         notes.extend(camera.map(Into::into));
     }
+    if sequence.normals_of_view.is_some() {
+        notes.push("normals are taken to be in the camera's own space: surfaces are flat that way".into());
+    }
     if !sequence.has(Layer::Motion) {
         let motion = match sequence.eye {
             Eye::Given | Eye::Described if sequence.has_surfaces() => "only the camera is taken to move",

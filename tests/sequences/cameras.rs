@@ -202,3 +202,34 @@ fn attributes_describe_cameras() {
         }
     }
 }
+
+/// Cameras in the world with normals of the world, or of their own space: what is read is the same.
+#[test]
+fn the_space_of_normals_is_found() {
+    let raster = Raster::whole(SIZE);
+    let camera = turned(1.0, Lens::Perspective(1.2));
+    let (normals, depths) = look(&camera, raster, false);
+    let own = |sign: f64| -> Vec<f32> {
+        let turned = |n: &[f32; 3]| {
+            let n = n.map(f64::from);
+            [dot(n, camera.right), dot(n, camera.up), sign * dot(n, camera.forward)].map(|x| x as f32)
+        };
+        normals.as_chunks::<3>().0.iter().flat_map(turned).collect()
+    };
+    for (written, expected) in [(normals.clone(), None), (own(-1.0), Some(-1.0)), (own(1.0), Some(1.0))] {
+        let folder = Folder::new();
+        let component = |k: usize| written.iter().skip(k).step_by(3).copied().collect::<Vec<f32>>();
+        let names = ["normal.X", "normal.Y", "normal.Z"].iter().enumerate();
+        let mut channels: Vec<(String, Vec<f32>)> = names.map(|(k, name)| ((*name).to_owned(), component(k))).collect();
+        channels.extend(["R", "G", "B"].map(|name| (name.to_owned(), vec![0.5; depths.len()])));
+        channels.push(("depth.Z".into(), depths.clone()));
+        folder.write(0, &asvgf::image_io::Channels { width: SIZE[0], height: SIZE[1], channels });
+        let manifest = json!({ "cameras": [camera.to_json()] }).to_string();
+        std::fs::write(folder.0.join("manifest.json"), manifest).unwrap();
+        let sequence = folder.open().unwrap();
+        assert_eq!(sequence.normals_of_view, expected);
+        let pixels = sequence.read(0).unwrap();
+        let found = pixels.get(crate::layers::Layer::Normal).unwrap();
+        assert!(found.iter().zip(&normals).all(|(a, b)| (a - b).abs() < 1e-5));
+    }
+}

@@ -15,7 +15,7 @@ const PIXELS: usize = 30_000;
 const ENOUGH: usize = 200;
 
 /// Largest part of the squared distances between the points that may be left out of their planes.
-const RESIDUAL: f64 = 1e-3;
+pub const RESIDUAL: f64 = 1e-3;
 
 /// The part of the surfaces that must face the camera.
 const FACING: f64 = 0.98;
@@ -61,6 +61,8 @@ struct View {
     orthographic: bool,
     /// A field of view that is not to be changed.
     slope: Option<f64>,
+    /// Of the lens against the picture.
+    shift: [f64; 2],
 }
 
 /// What pairs of points ask of the rays.
@@ -83,7 +85,7 @@ struct Guess([[f64; 3]; 3], f64);
 /// Fits a camera to the normals and depths of an image; `None` where they do not tell. Depths may be distances along the rays. A slope that is given is
 /// kept.
 pub fn fit(normals: &[f32], depths: &[f32], raster: Raster, along_ray: bool, slope: Option<f64>) -> Option<Fit> {
-    let view = View { raster, orthographic: false, slope };
+    let view = View { raster, orthographic: false, slope, shift: [0.0; 2] };
     if along_ray {
         return fit_distances(normals, depths, view);
     }
@@ -98,6 +100,23 @@ pub fn fit(normals: &[f32], depths: &[f32], raster: Raster, along_ray: bool, slo
         let kept = Planes { view: View { slope: Some(raster.slope_of(ASSUMED_FOV_Y)), ..view }, ..planes };
         kept.fit().map(|fit| Fit { determined: false, ..fit })
     })
+}
+
+/// How far surfaces are off their planes as a camera sees them, if their normals are those of the space that it stands in, or of its own space, looking along
+/// −Z or +Z: squared distances over those between the points. `None` where too few planes tell.
+pub fn residuals(normals: &[f32], depths: &[f32], raster: Raster, camera: &Camera) -> Option<[f64; 3]> {
+    let view =
+        View { raster, orthographic: camera.is_orthographic(), slope: Some(camera.slope()), shift: camera.shift };
+    let depths: Vec<f64> = depths.iter().map(|&z| z.into()).collect();
+    let planes = Planes::new(normals, &depths, view);
+    let own = |sign: f64| [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, sign]];
+    let guesses = [[camera.right, camera.up, camera.forward], own(-1.0), own(1.0)];
+    // A surface that faces away is none.
+    let residual = |axes| {
+        let guess = Guess(axes, camera.slope());
+        if planes.facing(&guess) >= FACING { planes.residual(&guess) } else { f64::MAX }
+    };
+    (planes.seen.len() >= ENOUGH).then(|| guesses.map(residual))
 }
 
 /// As [`fit`]. Depths follow from distances and a field of view: the one with which most pairs lie on planes, and they best.
@@ -138,7 +157,7 @@ impl Planes {
         let normal = |i: usize| [normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]].map(f64::from);
         let point = |i: usize| {
             let [x, y] = view.raster.point([(i % width) as f64 + 0.5, (i / width) as f64 + 0.5]);
-            [1.0, x, y]
+            [1.0, x + view.shift[0], y + view.shift[1]]
         };
         let mut planes = Self { view, apart: [[0.0; 9]; 9], between: [[0.0; 3]; 3], seen: Vec::new(), slanted: 0 };
         // Far enough apart that the rounding of depths does not count, and near enough to be of one plane.

@@ -109,6 +109,8 @@ pub struct Sequence {
     pub cameras: Vec<Camera>,
     /// How they are known.
     pub eye: Eye,
+    /// Normals are in the camera's own space, which it looks along this sign of Z of.
+    pub normals_of_view: Option<f64>,
     /// The gradient's paths stand in the colour in the place of their pixels' own.
     pub in_place: bool,
 }
@@ -188,6 +190,7 @@ impl Sequence {
             other_view_layers: Vec::new(),
             cameras: manifest.cameras,
             eye: Eye::Given,
+            normals_of_view: None,
             in_place: manifest.in_place,
         };
         let given = !sequence.cameras.is_empty();
@@ -207,6 +210,9 @@ impl Sequence {
         sequence.raster = raster(sequence.window, display, aspect);
         if !given {
             (sequence.cameras, sequence.eye) = sequence.cameras_of(&seen);
+        }
+        if matches!(sequence.eye, Eye::Given | Eye::Described) && sequence.has(Layer::Normal) {
+            sequence.normals_of_view = sequence.space_of_normals()?;
         }
         Ok(sequence)
     }
@@ -254,8 +260,31 @@ impl Sequence {
             None => None,
         });
         let mut pixels = Pixels(samples.collect());
+        if let (Some(sign), Some(normals)) = (self.normals_of_view, pixels.0[Layer::Normal as usize].as_mut()) {
+            for n in normals.as_chunks_mut::<3>().0 {
+                let [x, y, z] = n.map(f64::from);
+                let turned = |i: usize| x * camera.right[i] + y * camera.up[i] + sign * z * camera.forward[i];
+                *n = std::array::from_fn(|i| turned(i) as f32);
+            }
+        }
         guides::complete(&mut pixels, &camera, self.raster);
         Ok(pixels)
+    }
+
+    /// Whether normals are in the cameras' own space, by planes in the frame whose camera is turned most against it. Failure: pbrt writes where the camera is in
+    /// the world, and normals as the camera has them; planes were then none. Rule: what fits four times as well is meant.
+    fn space_of_normals(&self) -> Result<Option<f64>, SequenceError> {
+        let turned = |&index: &usize| (self.camera(index).forward[2].abs() * 1e6) as i64;
+        let index = (0..self.frames()).min_by_key(turned).unwrap_or_default();
+        let pixels = self.read(index)?;
+        let (normals, depths) = (pixels.get(Layer::Normal), pixels.get(Layer::Depth).filter(|_| self.has_surfaces()));
+        let (Some(normals), Some(depths)) = (normals, depths) else { return Ok(None) };
+        let Some([world, away, towards]) = camera_fit::residuals(normals, depths, self.raster, &self.camera(index))
+        else {
+            return Ok(None);
+        };
+        let (best, sign) = if away <= towards { (away, -1.0) } else { (towards, 1.0) };
+        Ok((world > camera_fit::RESIDUAL && best < world / 4.0).then_some(sign))
     }
 
     /// The samples of a layer's channels, pixel by pixel, as the format has them.
