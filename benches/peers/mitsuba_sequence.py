@@ -26,6 +26,10 @@ def camera(frame, frames):
     return np.array([-0.6 + 1.2 * t, 0.4, 3.6]), np.array([0.1 * t, -0.1, 0.0])
 
 
+def ball(frame, frames):
+    return np.array([0.3 - 0.5 * frame / frames, -0.2, 0.9])
+
+
 def scene(frame, frames, size):
     eye, target = camera(frame, frames)
     box = mi.cornell_box()
@@ -40,12 +44,47 @@ def scene(frame, frames, size):
     # The first names of `aovs` are the user's own: these are known to `denoise`.
     box['integrator'] = {
         'type': 'aov',
-        'aovs': 'albedo:albedo,nn:sh_normal,dd:depth,id:shape_index',
+        'aovs': 'albedo:albedo,nn:sh_normal,dd:depth,id:shape_index,pp:position',
         'image': {'type': 'path', 'max_depth': 6},
     }
     metal = {'type': 'roughconductor', 'material': 'Au', 'alpha': 0.15}
-    box['ball'] = {'type': 'sphere', 'center': [0.3 - 0.5 * frame / frames, -0.2, 0.9], 'radius': 0.25, 'bsdf': metal}
+    box['ball'] = {'type': 'sphere', 'center': ball(frame, frames).tolist(), 'radius': 0.25, 'bsdf': metal}
     return mi.load_dict(box)
+
+
+def axes(frame, frames):
+    """Where the camera stands, and its directions forward, right and up."""
+    eye, target = camera(frame, frames)
+    forward = (target - eye) / np.linalg.norm(target - eye)
+    right = np.cross(forward, [0, 1, 0])
+    right /= np.linalg.norm(right)
+    return eye, forward, right, np.cross(right, forward)
+
+
+def project(points, frame, frames, size):
+    """The pixel that shows a point, x right, y down."""
+    eye, forward, right, up = axes(frame, frames)
+    offset = points - eye
+    half = math.tan(math.radians(FOV / 2)) * (offset @ forward)
+    with np.errstate(divide='ignore', invalid='ignore'):
+        x, y = (offset @ right) / half, (offset @ up) / half * size[0] / size[1]
+    return np.stack([(x + 1) / 2 * size[0], (1 - y) / 2 * size[1]], -1)
+
+
+def with_motion(bitmap, frame, frames, size):
+    """Mitsuba has no motion vectors: they follow from positions, from where cameras stood, and from what moved by how much."""
+    names = [bitmap.struct_()[i].name for i in range(bitmap.channel_count())]
+    image = np.array(bitmap)
+    channel = lambda *wanted: np.stack([image[..., names.index(name)] for name in wanted], -1).astype(np.float64)
+    points, depth = channel('pp.X', 'pp.Y', 'pp.Z'), channel('dd.T')[..., 0]
+    before = max(frame - 1, 0)
+    is_ball = np.linalg.norm(points - ball(frame, frames), axis=-1) < 0.26
+    then = points - is_ball[..., None] * (ball(frame, frames) - ball(before, frames))
+    motion = project(then, before, frames, size) - project(points, frame, frames, size)
+    motion[depth <= 0] = 0
+    kept = [i for i, name in enumerate(names) if not name.startswith(('pp.', 'image.'))]
+    data = np.concatenate([image[..., kept], motion.astype(np.float32)], -1)
+    return mi.Bitmap(data, mi.Bitmap.PixelFormat.MultiChannel, [names[i] for i in kept] + ['motion.X', 'motion.Y'])
 
 
 def main():
@@ -65,13 +104,13 @@ def main():
         made = scene(frame, asked.frames, size)
         for folder, samples, seed in zip(folders, (asked.samples, asked.reference), (0, 10_000)):
             # Another seed in each frame, or noise stands still and no average over time lessens it.
-            mi.render(made, spp=samples, seed=seed + frame)
-            made.sensors()[0].film().bitmap().write(str(folder / f'frame_{frame + 1:04d}.exr'))
-        eye, target = camera(frame, asked.frames)
-        forward = (target - eye) / np.linalg.norm(target - eye)
-        right = np.cross(forward, [0, 1, 0])
-        right /= np.linalg.norm(right)
-        up = np.cross(right, forward)
+            if samples > 0:
+                mi.render(made, spp=samples, seed=seed + frame)
+                bitmap = made.sensors()[0].film().bitmap()
+                if folder == folders[0]:
+                    bitmap = with_motion(bitmap, frame, asked.frames, size)
+                bitmap.write(str(folder / f'frame_{frame + 1:04d}.exr'))
+        eye, forward, right, up = axes(frame, asked.frames)
         cameras.append({'o': eye.tolist(), 'fw': forward.tolist(), 'r': right.tolist(), 'up': up.tolist(), 'th': math.tan(math.radians(FOV / 2))})
     (folders[0] / 'manifest.json').write_text(json.dumps({'cameras': cameras}))
 

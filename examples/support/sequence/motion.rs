@@ -106,7 +106,10 @@ pub fn matches(
             >= 0.9 * length(three(normal, i)) * length(three(normal_before, j));
         let object = ids.is_none_or(|(now, before)| now[i] == before[j]);
         let albedo = albedos.is_none_or(|(now, before)| {
-            (0..3).all(|c| (now[3 * i + c] - before[3 * j + c]).abs() <= 0.1 || !now[3 * i + c].is_finite())
+            // What is no albedo tells nothing.
+            let is_one = |a: &[f32]| a.iter().all(|x| (0.0..=1.0).contains(x)) && a.iter().any(|x| *x > 0.0);
+            let (now, before) = (&now[3 * i..3 * i + 3], &before[3 * j..3 * j + 3]);
+            !is_one(now) || !is_one(before) || now.iter().zip(before).all(|(a, b)| (a - b).abs() <= 0.1)
         });
         matches.compared += 1;
         matches.same += usize::from(near && turned && object && albedo);
@@ -120,6 +123,9 @@ fn length(v: [f64; 3]) -> f64 {
 
 /// Part of the surfaces that may be lost along the motion of a sequence before it is told.
 const LOST: f64 = 0.15;
+
+/// Part that is told even if no other reading fits: less may be noise of the guides.
+const LOST_ANYWAY: f64 = 0.5;
 
 /// By which part another reading has to lose less to be named.
 const BETTER: f64 = 0.4;
@@ -137,6 +143,7 @@ pub fn complaint(readings: &[Matches]) -> Option<String> {
         Some((matches, (reading, _))) => {
             format!("{lost}, and in {:.0} % if {reading}", 100.0 * matches.lost())
         }
+        None if own.lost() < LOST_ANYWAY => return None,
         None => format!("{lost}: its sign, its unit or its axis is wrong, or depths, normals or ids are noisy"),
     })
 }
