@@ -40,6 +40,7 @@ use denoise_options::{Options, Request};
 use film::Film;
 use gpu::Gpu;
 use indicatif::{ProgressBar, ProgressStyle};
+use look_ahead::Ahead;
 use output::Files;
 use sequence::Sequence;
 use sequence::layers::Layer;
@@ -80,8 +81,11 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     bar.finish_and_clear();
     refuse_to_overwrite(options, &sequence)?;
     let settings = settings(options, &sequence);
-    let ahead = (!options.causal).then(|| look_ahead::settings(&settings));
-    eprint!("{}", summary::before(&sequence, &settings, ahead.is_some()));
+    let ahead = (!options.causal).then(|| Ahead {
+        settings: look_ahead::settings(&settings),
+        smooth_edges: options.smooth_edges.unwrap_or(sequence.area.is_some()),
+    });
+    eprint!("{}", summary::before(&sequence, &settings, ahead.as_ref()));
 
     let gpu = Gpu::new()?;
     let mut film = Film::new(&gpu, sequence.size, settings)?;

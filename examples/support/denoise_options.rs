@@ -58,6 +58,9 @@ Input
 Denoiser
   --causal              each frame from itself and earlier ones alone, as in real time, in
                         half the time            [frames see up to 12 … 64 later ones too]
+  --edges KIND          smooth, as whole pixels show them, or sharp, as points do
+                        [smooth if depths are those of points all over the pixels, or the
+                        file is Blender's; sharp with --causal]
   --preset NAME         default, or classic: the formulas as published       [default]
   --alpha KIND          adaptive, or constant:A with 0…1 as the weight of each new
                         frame (constant alone: 0.2)                         [adaptive]
@@ -121,6 +124,8 @@ pub struct Options {
     pub in_place: bool,
     /// Frames do not see later ones.
     pub causal: bool,
+    /// Whether edges are those of whole pixels, if that was said.
+    pub smooth_edges: Option<bool>,
     pub preset: FilterSettings,
     /// `None` for an adaptive α.
     pub constant: Option<f32>,
@@ -155,6 +160,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         out: PathBuf::new(),
         in_place: false,
         causal: false,
+        smooth_edges: None,
         preset: FilterSettings::default(),
         constant: None,
         outputs: vec![OUTPUTS[0]],
@@ -186,6 +192,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         match name.as_str() {
             "in-place" => options.in_place = true,
             "causal" => options.causal = true,
+            "edges" => options.smooth_edges = Some(value()?.one_of(&[("smooth", true), ("sharp", false)])?),
             "keep-channels" => options.keep_channels = true,
             "same-names" => options.same_names = true,
             "out" => out = Some(parser.value()?.into()),

@@ -53,10 +53,19 @@ pub trait Sink {
     fn denoised(&mut self, index: usize, image: &[[f32; 3]]) -> Result<(), Box<dyn Error>>;
 }
 
+/// How frames see later ones.
+#[derive(Clone, Debug)]
+pub struct Ahead {
+    /// Of the run backwards.
+    pub settings: Settings,
+    /// Edges are those of whole pixels.
+    pub smooth_edges: bool,
+}
+
 /// Denoises a sequence. With settings for a run backwards, frames see what comes after them.
 pub fn denoise(
     film: &mut Film<'_>,
-    ahead: Option<&Settings>,
+    ahead: Option<&Ahead>,
     sequence: &Sequence,
     sink: &mut dyn Sink,
 ) -> Result<Denoised, Box<dyn Error>> {
@@ -64,10 +73,11 @@ pub fn denoise(
     let mut denoised = Denoised::default();
     let mut readings: Vec<Matches> = Vec::new();
     let mut behind = match ahead.filter(|_| sequence.frames() > 1) {
-        Some(settings) => Some((Film::new(gpu, sequence.size, settings.clone())?, None::<Behind>)),
+        Some(ahead) => Some((Film::new(gpu, sequence.size, ahead.settings.clone())?, None::<Behind>)),
         None => None,
     };
-    let mut antialias = behind.is_some().then(|| Antialias::new(sequence.size));
+    let smooth = behind.is_some() && ahead.is_some_and(|ahead| ahead.smooth_edges);
+    let mut antialias = smooth.then(|| Antialias::new(sequence.size));
     let mut player = Player::new(film, sequence, false);
     for index in 0..sequence.frames() {
         if let Some((film, kept)) = &mut behind

@@ -1,12 +1,13 @@
 //! What `denoise` says: what it found, what it takes instead of the rest, and what seemed wrong.
 
-use crate::look_ahead::{self, Denoised};
+use crate::look_ahead::{self, Ahead, Denoised};
 use crate::sequence::layers::Layer;
+use crate::sequence::pixels::Area;
 use crate::sequence::{Eye, Sequence};
 use asvgf::{Gradient, Settings};
 
 /// Before the first frame.
-pub fn before(sequence: &Sequence, settings: &Settings, ahead: bool) -> String {
+pub fn before(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> String {
     let [width, height] = sequence.size;
     let (first, last) = (&sequence.files[0], &sequence.files[sequence.frames() - 1]);
     let step = if sequence.step > 1 { format!(", every {}", ordinal(sequence.step)) } else { String::new() };
@@ -53,7 +54,7 @@ fn quoted(name: &str) -> String {
 }
 
 /// What edges are told by, how surfaces are followed, and what makes α adapt.
-fn level(sequence: &Sequence, settings: &Settings, ahead: bool) -> String {
+fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> String {
     let edges = match (sequence.has(Layer::Normal), sequence.has_surfaces()) {
         (true, true) => "edges by normals and depth",
         (false, true) => "edges by depth, and normals made of it",
@@ -75,7 +76,11 @@ fn level(sequence: &Sequence, settings: &Settings, ahead: bool) -> String {
         Gradient::Off => "α constant",
         _ => "α by the image alone",
     };
-    let future = if ahead && sequence.frames() > 1 { "past and future" } else { "past" };
+    let future = match ahead.filter(|_| sequence.frames() > 1) {
+        Some(ahead) if ahead.smooth_edges => "past and future, edges of whole pixels",
+        Some(_) => "past and future, edges of points",
+        None => "past",
+    };
     format!("{edges}{albedo}; {followed}; {alpha}; {future}")
 }
 
@@ -117,6 +122,11 @@ fn notes(sequence: &Sequence) -> Vec<String> {
         };
         notes.push(format!("motion is absent: {motion}"));
     }
+    let area = sequence.area.map(|area| match area {
+        Area::Scattered => "pixels are areas: depths are those of points all over them; --edges sharp if not",
+        Area::Blender => "pixels are areas, as Blender's are; --edges sharp if not",
+    });
+    notes.extend(area.map(Into::into));
     if sequence.frames() == 1 {
         notes.push("one frame: there is nothing to average over time".into());
     }

@@ -28,7 +28,7 @@ fn what_is_not_said_is_the_default() {
 fn everything_that_can_be_said_is_heard() {
     let line = "in --out out --alpha constant:0.1 --iterations 3 --preset classic --outputs denoised,lambda,history --format exr,png \
                 --map albedo=base --map depth=far:ray --map motion=pass:0,pass:1:up --frames 101-148 --cut 110,120 \
-                --layer Main --type half --compression piz --causal --keep-channels --same-names";
+                --layer Main --type half --compression piz --causal --edges sharp --keep-channels --same-names";
     let options = options(line).unwrap();
     assert_eq!(options.constant, Some(0.1));
     // Whatever the order.
@@ -49,6 +49,7 @@ fn everything_that_can_be_said_is_heard() {
     assert_eq!(options.source.cuts, [110, 120]);
     assert_eq!(options.source.view_layer.as_deref(), Some("Main"));
     assert_eq!((options.sample_type, options.compression), (Some(SampleType::Half), Some(Compression::Piz)));
+    assert_eq!(options.smooth_edges, Some(false));
     assert!(options.causal && options.keep_channels && options.same_names);
 }
 

@@ -6,8 +6,9 @@ use crate::film::Film;
 use crate::folder::{Folder, Frames, add, random, wall};
 use crate::gpu::Gpu;
 use crate::layers::Layer;
-use crate::look_ahead::{self, Denoised};
+use crate::look_ahead::{self, Ahead, Denoised};
 use crate::sequence::motion::{READINGS, complaint, readings};
+use crate::sequence::pixels::Area;
 use crate::sequence::surfaces::surfaces;
 use crate::sequence::{Pixels, Sequence};
 use asvgf::Settings;
@@ -23,7 +24,7 @@ fn settings() -> Settings {
 fn denoised(sequence: &Sequence, ahead: bool) -> (Vec<Vec<[f32; 3]>>, Denoised) {
     let gpu = Gpu::new().unwrap();
     let mut film = Film::new(&gpu, sequence.size, settings()).unwrap();
-    let backwards = ahead.then(|| look_ahead::settings(&settings()));
+    let backwards = ahead.then(|| Ahead { settings: look_ahead::settings(&settings()), smooth_edges: true });
     let mut frames = Vec::new();
     let told = look_ahead::denoise(&mut film, backwards.as_ref(), sequence, &mut Frames(&mut frames));
     (frames, told.unwrap())
@@ -356,4 +357,29 @@ fn edges_are_as_the_whole_pixel_shows_them() {
     assert!(contrast(&seen[3]) < 0.1, "{}", contrast(&seen[3]));
     let mean = seen[3].iter().map(|c| f64::from(c[0])).sum::<f64>() / seen[3].len() as f64;
     assert!((mean - 0.5).abs() < 0.02, "{mean}");
+}
+
+/// A floor whose depths are of the pixels' middles, or of any points in them.
+#[test]
+fn points_all_over_the_pixels_are_noticed() {
+    for (scatter, expected) in [(0.0, None), (0.3, Some(Area::Scattered)), (1.0, Some(Area::Scattered))] {
+        let folder = Folder::new();
+        for frame in 0..2 {
+            let mut image = wall(SIZE);
+            for (name, samples) in &mut image.channels {
+                for (i, x) in samples.iter_mut().enumerate() {
+                    let row = (i as u32 / SIZE[0]) as f32 + 0.5 + scatter * (random(i as u32, frame) - 0.5);
+                    match name.as_str() {
+                        "normal.Y" => *x = 1.0,
+                        "normal.Z" => *x = 0.0,
+                        // A floor below the horizon, which is above the image.
+                        "depth.Z" => *x = 40.0 / (row + 10.0),
+                        _ => {}
+                    }
+                }
+            }
+            folder.write(frame, &image);
+        }
+        assert_eq!(folder.open().unwrap().area, expected, "{scatter}");
+    }
 }

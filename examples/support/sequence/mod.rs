@@ -7,12 +7,14 @@ mod guides;
 pub mod layers;
 mod manifest;
 pub mod motion;
+pub mod pixels;
 pub mod surfaces;
 
 use crate::camera::{Camera, Raster};
 use asvgf::image_io::{Channels, ExrFile, Window};
 use files::FrameFile;
 use layers::{Layer, Meaning, Names, Place, Places};
+use pixels::Area;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -113,6 +115,8 @@ pub struct Sequence {
     pub normals_of_view: Option<f64>,
     /// The gradient's paths stand in the colour in the place of their pixels' own.
     pub in_place: bool,
+    /// Pixels stand for areas, not for points, and why.
+    pub area: Option<Area>,
 }
 
 /// One frame: the layers' samples, pixel by pixel.
@@ -192,6 +196,7 @@ impl Sequence {
             eye: Eye::Given,
             normals_of_view: None,
             in_place: manifest.in_place,
+            area: None,
         };
         let given = !sequence.cameras.is_empty();
         let mut seen = Vec::new();
@@ -213,6 +218,9 @@ impl Sequence {
         }
         if matches!(sequence.eye, Eye::Given | Eye::Described) && sequence.has(Layer::Normal) {
             sequence.normals_of_view = sequence.space_of_normals()?;
+        }
+        if sequence.has(Layer::Depth) && sequence.has(Layer::Normal) {
+            sequence.area = pixels::area(&sequence.file(0)?, &sequence.read(0)?, sequence.size);
         }
         Ok(sequence)
     }
