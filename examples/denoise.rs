@@ -15,8 +15,12 @@ mod clean_albedo;
 mod denoise_options;
 #[path = "support/film.rs"]
 mod film;
+#[path = "support/fixed_seed.rs"]
+mod fixed_seed;
 #[path = "support/gpu.rs"]
 mod gpu;
+#[path = "support/inverted_motion.rs"]
+mod inverted_motion;
 #[path = "support/look_ahead.rs"]
 mod look_ahead;
 #[path = "support/output.rs"]
@@ -33,6 +37,8 @@ mod summary;
 mod times;
 #[path = "support/tone.rs"]
 mod tone;
+#[path = "support/upload.rs"]
+mod upload;
 
 use arguments::Usage;
 use asvgf::{FilterSettings, Gradient, Settings};

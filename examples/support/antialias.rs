@@ -5,8 +5,8 @@
 //! pixel is the mean of what it shows in this and in two frames to each side, followed along the motion (Korein and Badler 1983), with the weights of a tent.
 //! What a frame brings from elsewhere is limited to the colours around the pixel (Karis 2014), and counts less the farther it had to be brought.
 
+use crate::inverted_motion::inverted;
 use crate::parallel;
-use crate::replay::inverted;
 use crate::sequence::Pixels;
 use crate::sequence::layers::Layer;
 use std::collections::VecDeque;

@@ -9,10 +9,10 @@ use crate::camera::{Camera, Raster};
 use crate::film::Film;
 use crate::gpu::Gpu;
 use crate::parallel;
-use crate::replay::upload;
 use crate::sequence::Pixels;
 use crate::sequence::layers::Layer;
 use crate::sequence::surfaces::{is_same, one, surfaces, three};
+use crate::upload::upload;
 use asvgf::{Error, FilterSettings, Gradient, Settings, Shading, Surfaces, View};
 
 /// σ of the luminance stop for an albedo.

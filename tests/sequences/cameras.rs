@@ -2,7 +2,8 @@
 
 use crate::camera::{Camera, Lens, Raster, dot};
 use crate::folder::Folder;
-use crate::sequence::{Eye, Fit, fit};
+use crate::sequence::Eye;
+use crate::sequence::camera_fit::{Fit, fit};
 use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, LayerAttributes, Vec2, WritableImage as _};
 use serde_json::json;
 

@@ -18,8 +18,12 @@ mod denoise_options;
 mod export;
 #[path = "../../examples/support/film.rs"]
 mod film;
+#[path = "../../examples/support/fixed_seed.rs"]
+mod fixed_seed;
 #[path = "../../examples/support/gpu.rs"]
 mod gpu;
+#[path = "../../examples/support/inverted_motion.rs"]
+mod inverted_motion;
 #[path = "../../examples/support/look_ahead.rs"]
 mod look_ahead;
 #[path = "../../examples/support/output.rs"]
@@ -40,6 +44,8 @@ mod times;
 mod tone;
 #[path = "../../examples/support/tracing.rs"]
 mod tracing;
+#[path = "../../examples/support/upload.rs"]
+mod upload;
 
 use sequence::layers;
 

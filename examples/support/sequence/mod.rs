@@ -1,6 +1,7 @@
 //! A sequence of frames as a renderer wrote it: its files, its layers, its cameras, and what `manifest.json` says of them.
 
-mod camera_fit;
+pub mod camera_fit;
+mod cameras;
 mod described_camera;
 pub mod files;
 mod guides;
@@ -17,8 +18,6 @@ use layers::{Layer, Meaning, Names, Place, Places};
 use pixels::Area;
 use std::fmt;
 use std::path::{Path, PathBuf};
-
-pub use camera_fit::{Fit, fit};
 
 /// What is wrong with a sequence: which file, and what would do.
 #[derive(Debug)]
@@ -82,9 +81,6 @@ pub enum Break {
     /// The manifest or the user says that another shot begins.
     Cut,
 }
-
-/// What is taken where nothing tells.
-const DEFAULT_FOV_Y: f32 = std::f32::consts::FRAC_PI_4;
 
 /// Frames that were looked at, each: all are whole, are of one picture, and have the same layers.
 #[derive(Debug)]
@@ -372,73 +368,6 @@ impl Sequence {
             }
         }
         Ok(frame)
-    }
-
-    /// What a frame tells of its camera.
-    fn see(&self, frame: &Frame, index: usize) -> Result<Seen, SequenceError> {
-        let file = self.file(index)?;
-        if let Some(camera) = described_camera::of(&file, frame.raster()) {
-            return Ok(Seen::Described(camera));
-        }
-        let samples = |layer: Layer| -> Option<(Vec<f32>, Meaning)> {
-            let place = frame.places.get(layer)?;
-            let channels: Vec<Vec<f32>> = place.channels.iter().map(|&c| frame.image.channels[c].1.clone()).collect();
-            Some((interleave(&channels, place.meaning), place.meaning))
-        };
-        let (Some((normals, _)), Some((depths, meaning))) = (samples(Layer::Normal), samples(Layer::Depth)) else {
-            return Ok(Seen::Nothing);
-        };
-        let raster = frame.raster();
-        let along_ray = meaning == Meaning::AlongRay;
-        let slope = self.source.fov_y.map(|fov| raster.slope_of(fov.into()));
-        Ok(match fit(&normals, &depths, raster, along_ray, slope) {
-            Some(fit) => Seen::Fitted(fit),
-            None => Seen::Nothing,
-        })
-    }
-
-    /// Cameras for all frames from what each tells.
-    fn cameras_of(&self, seen: &[Seen]) -> (Vec<Camera>, Eye) {
-        let assumed = || {
-            let fov_y = self.source.fov_y.unwrap_or(DEFAULT_FOV_Y);
-            (vec![Camera::at_rest(fov_y.into(), self.raster)], Eye::Assumed)
-        };
-        let described: Option<Vec<Camera>> = seen.iter().map(Seen::described).collect();
-        if let Some(cameras) = described {
-            return (cameras, Eye::Described);
-        }
-        let Some(fits) = seen.iter().map(Seen::fitted).collect::<Option<Vec<_>>>() else { return assumed() };
-        if self.source.fov_y.is_some() {
-            return (fits.iter().map(|fit| fit.camera).collect(), Eye::Turned);
-        }
-        if fits.iter().all(|fit| fit.determined) {
-            return (fits.iter().map(|fit| fit.camera).collect(), Eye::Fitted);
-        }
-        // Frames in which the field of view shows lend it to the others.
-        let mut slopes: Vec<f64> = fits.iter().filter(|fit| fit.determined).map(|fit| fit.camera.slope()).collect();
-        slopes.sort_by(f64::total_cmp);
-        let (slope, eye) = match slopes.get(slopes.len() / 2) {
-            Some(&slope) => (slope, Eye::Fitted),
-            None => (self.raster.slope_of(DEFAULT_FOV_Y.into()), Eye::Turned),
-        };
-        (fits.iter().map(|fit| if fit.determined { fit.camera } else { fit.camera.with_slope(slope) }).collect(), eye)
-    }
-}
-
-/// What a frame tells of its camera.
-enum Seen {
-    Described(Camera),
-    Fitted(Fit),
-    Nothing,
-}
-
-impl Seen {
-    fn described(&self) -> Option<Camera> {
-        if let Self::Described(camera) = self { Some(*camera) } else { None }
-    }
-
-    fn fitted(&self) -> Option<Fit> {
-        if let Self::Fitted(fit) = self { Some(*fit) } else { None }
     }
 }
 

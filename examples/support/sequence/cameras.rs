@@ -1,0 +1,78 @@
+//! The cameras of a sequence that nobody wrote down beside it: from attributes, or from what the frames show.
+
+use super::camera_fit::{Fit, fit};
+use super::layers::{Layer, Meaning};
+use super::{Eye, Frame, Sequence, SequenceError, described_camera, interleave};
+use crate::camera::Camera;
+
+/// What is taken where nothing tells.
+const DEFAULT_FOV_Y: f32 = std::f32::consts::FRAC_PI_4;
+
+/// What a frame tells of its camera.
+pub enum Seen {
+    Described(Camera),
+    Fitted(Fit),
+    Nothing,
+}
+
+impl Seen {
+    fn described(&self) -> Option<Camera> {
+        if let Self::Described(camera) = self { Some(*camera) } else { None }
+    }
+
+    fn fitted(&self) -> Option<Fit> {
+        if let Self::Fitted(fit) = self { Some(*fit) } else { None }
+    }
+}
+
+impl Sequence {
+    /// What a frame tells of its camera.
+    pub(super) fn see(&self, frame: &Frame, index: usize) -> Result<Seen, SequenceError> {
+        let file = self.file(index)?;
+        if let Some(camera) = described_camera::of(&file, frame.raster()) {
+            return Ok(Seen::Described(camera));
+        }
+        let samples = |layer: Layer| -> Option<(Vec<f32>, Meaning)> {
+            let place = frame.places.get(layer)?;
+            let channels: Vec<Vec<f32>> = place.channels.iter().map(|&c| frame.image.channels[c].1.clone()).collect();
+            Some((interleave(&channels, place.meaning), place.meaning))
+        };
+        let (Some((normals, _)), Some((depths, meaning))) = (samples(Layer::Normal), samples(Layer::Depth)) else {
+            return Ok(Seen::Nothing);
+        };
+        let raster = frame.raster();
+        let along_ray = meaning == Meaning::AlongRay;
+        let slope = self.source.fov_y.map(|fov| raster.slope_of(fov.into()));
+        Ok(match fit(&normals, &depths, raster, along_ray, slope) {
+            Some(fit) => Seen::Fitted(fit),
+            None => Seen::Nothing,
+        })
+    }
+
+    /// Cameras for all frames from what each tells.
+    pub(super) fn cameras_of(&self, seen: &[Seen]) -> (Vec<Camera>, Eye) {
+        let assumed = || {
+            let fov_y = self.source.fov_y.unwrap_or(DEFAULT_FOV_Y);
+            (vec![Camera::at_rest(fov_y.into(), self.raster)], Eye::Assumed)
+        };
+        let described: Option<Vec<Camera>> = seen.iter().map(Seen::described).collect();
+        if let Some(cameras) = described {
+            return (cameras, Eye::Described);
+        }
+        let Some(fits) = seen.iter().map(Seen::fitted).collect::<Option<Vec<_>>>() else { return assumed() };
+        if self.source.fov_y.is_some() {
+            return (fits.iter().map(|fit| fit.camera).collect(), Eye::Turned);
+        }
+        if fits.iter().all(|fit| fit.determined) {
+            return (fits.iter().map(|fit| fit.camera).collect(), Eye::Fitted);
+        }
+        // Frames in which the field of view shows lend it to the others.
+        let mut slopes: Vec<f64> = fits.iter().filter(|fit| fit.determined).map(|fit| fit.camera.slope()).collect();
+        slopes.sort_by(f64::total_cmp);
+        let (slope, eye) = match slopes.get(slopes.len() / 2) {
+            Some(&slope) => (slope, Eye::Fitted),
+            None => (self.raster.slope_of(DEFAULT_FOV_Y.into()), Eye::Turned),
+        };
+        (fits.iter().map(|fit| if fit.determined { fit.camera } else { fit.camera.with_slope(slope) }).collect(), eye)
+    }
+}
