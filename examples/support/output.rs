@@ -7,7 +7,7 @@ use crate::look_ahead::Sink;
 use crate::sequence::Sequence;
 use crate::tone;
 use asvgf::View;
-use asvgf::image_io::{self, ExrFile};
+use asvgf::image_io::{self, Channels};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
@@ -78,7 +78,8 @@ fn write_denoised(
     path: &Path,
 ) -> Result<(), Box<dyn Error>> {
     let file = sequence.file(index)?;
-    let names = sequence.color_names(index, &file)?;
+    let image = file.channels();
+    let names = sequence.color_names(index, &image)?;
     let window = file.data_window();
     let place = |c: usize| {
         let samples: Vec<f32> = denoised.iter().map(|pixel| pixel[c]).collect();
@@ -92,7 +93,7 @@ fn write_denoised(
     } else {
         let mut channels: Vec<(String, Vec<f32>)> =
             ["R", "G", "B"].iter().enumerate().map(|(c, name)| ((*name).to_owned(), place(c))).collect();
-        channels.extend(alpha(&file, &names[0]).map(|samples| ("A".to_owned(), samples)));
+        channels.extend(alpha(&image, &names[0]).map(|samples| ("A".to_owned(), samples)));
         file.with_channels(&names[0], &channels)
     };
     if let Some(sample_type) = options.sample_type {
@@ -106,8 +107,7 @@ fn write_denoised(
 }
 
 /// The coverage beside a colour, by the name of its first channel.
-fn alpha(file: &ExrFile, color: &str) -> Option<Vec<f32>> {
+fn alpha(image: &Channels, color: &str) -> Option<Vec<f32>> {
     let front = color.rsplit_once('.').map_or(String::new(), |(front, _)| format!("{front}."));
-    let image = file.channels();
     ["A", "a"].iter().find_map(|name| image.get(&format!("{front}{name}")).map(<[f32]>::to_vec))
 }

@@ -2,7 +2,7 @@
 
 use super::camera_fit::{Fit, fit};
 use super::layers::{Layer, Meaning};
-use super::{Eye, Frame, Sequence, SequenceError, described_camera, interleave};
+use super::{Eye, Frame, Sequence, interleave};
 use crate::camera::Camera;
 
 /// What is taken where nothing tells.
@@ -27,10 +27,9 @@ impl Seen {
 
 impl Sequence {
     /// What a frame tells of its camera.
-    pub(super) fn see(&self, frame: &Frame, index: usize) -> Result<Seen, SequenceError> {
-        let file = self.file(index)?;
-        if let Some(camera) = described_camera::of(&file, frame.raster()) {
-            return Ok(Seen::Described(camera));
+    pub(super) fn see(&self, frame: &Frame) -> Seen {
+        if let Some(camera) = frame.described {
+            return Seen::Described(camera);
         }
         let samples = |layer: Layer| -> Option<(Vec<f32>, Meaning)> {
             let place = frame.places.get(layer)?;
@@ -38,15 +37,12 @@ impl Sequence {
             Some((interleave(&channels, place.meaning), place.meaning))
         };
         let (Some((normals, _)), Some((depths, meaning))) = (samples(Layer::Normal), samples(Layer::Depth)) else {
-            return Ok(Seen::Nothing);
+            return Seen::Nothing;
         };
         let raster = frame.raster();
         let along_ray = meaning == Meaning::AlongRay;
         let slope = self.source.fov_y.map(|fov| raster.slope_of(fov.into()));
-        Ok(match fit(&normals, &depths, raster, along_ray, slope) {
-            Some(fit) => Seen::Fitted(fit),
-            None => Seen::Nothing,
-        })
+        fit(&normals, &depths, raster, along_ray, slope).map_or(Seen::Nothing, Seen::Fitted)
     }
 
     /// Cameras for all frames from what each tells.

@@ -136,6 +136,8 @@ struct Frame {
     aspect: f32,
     image: Channels,
     places: Places,
+    /// What its attributes tell of the camera.
+    described: Option<Camera>,
 }
 
 impl Frame {
@@ -202,7 +204,7 @@ impl Sequence {
             sequence.window = if index == 0 { frame.window } else { sequence.window.union(frame.window) };
             display = Some((frame.display, frame.aspect));
             if !given {
-                seen.push(sequence.see(&frame, index)?);
+                seen.push(sequence.see(&frame));
             }
             looked(count as u32);
         }
@@ -243,11 +245,9 @@ impl Sequence {
         ExrFile::read(&self.files[index].path).map_err(|e| SequenceError(e.to_string()))
     }
 
-    /// Names of the colour's channels in a file.
-    pub fn color_names(&self, index: usize, file: &ExrFile) -> Result<Vec<String>, SequenceError> {
-        let path = &self.files[index].path;
-        let image = file.channels();
-        let places = self.places(path, &image)?;
+    /// Names of the colour's channels among those of a frame.
+    pub fn color_names(&self, index: usize, image: &Channels) -> Result<Vec<String>, SequenceError> {
+        let places = self.places(&self.files[index].path, image)?;
         let color = places.get(Layer::Color).map(|place| place.channels.clone()).unwrap_or_default();
         Ok(color.into_iter().map(|c| image.channels[c].0.clone()).collect())
     }
@@ -320,13 +320,9 @@ impl Sequence {
         let file = self.file(index)?;
         let image = file.channels();
         let places = self.places(path, &image)?;
-        Ok(Frame {
-            window: file.data_window(),
-            display: file.display_window(),
-            aspect: file.pixel_aspect(),
-            image,
-            places,
-        })
+        let (window, display, aspect) = (file.data_window(), file.display_window(), file.pixel_aspect());
+        let described = described_camera::of(&file, raster(window, display, aspect));
+        Ok(Frame { window, display, aspect, image, places, described })
     }
 
     /// Reads a frame whole and compares it with the first.
