@@ -50,9 +50,10 @@ use look_ahead::Ahead;
 use output::Files;
 use sequence::Sequence;
 use sequence::layers::Layer;
+use std::collections::HashSet;
 use std::error::Error;
 use std::io::Write as _;
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -109,11 +110,13 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 
 /// The frames themselves are never written over.
 fn refuse_to_overwrite(options: &Options, sequence: &Sequence) -> Result<(), String> {
-    let folder = sequence.files[0].path.parent().unwrap_or(Path::new(".")).canonicalize().ok();
-    if options.same_names && folder.is_some() && folder == options.out.canonicalize().ok() {
-        return Err("--same-names: would write over the frames: let --out be another folder".into());
+    let frames: HashSet<PathBuf> = sequence.files.iter().filter_map(|file| file.path.canonicalize().ok()).collect();
+    let outputs = (0..sequence.frames()).flat_map(|index| output::paths(options, sequence, index));
+    let written = outputs.into_iter().find(|path| path.canonicalize().is_ok_and(|path| frames.contains(&path)));
+    match written {
+        Some(path) => Err(format!("--out: would write over the frame {}: let it be another folder", path.display())),
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// α adapts by what there is.

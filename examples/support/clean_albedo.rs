@@ -62,7 +62,8 @@ impl<'g> CleanAlbedo<'g> {
         camera: Camera,
         raster: Raster,
     ) -> Result<Vec<f32>, Error> {
-        let Some(albedo) = now.get(Layer::Albedo).map(<[f32]>::to_vec) else { return Ok(Vec::new()) };
+        let Some(mut albedo) = now.get(Layer::Albedo).map(<[f32]>::to_vec) else { return Ok(Vec::new()) };
+        fill_lone_black(now, &mut albedo, self.size);
         let surfaces = surfaces(now, self.size);
         let noise = noise(now, &albedo, last, motion, &surfaces, self.size);
         if self.film.is_none() && noise.iter().all(|&part| part <= NOISY[0]) {
@@ -151,6 +152,26 @@ fn settings() -> Settings {
         ..FilterSettings::default()
     };
     Settings { filter, ..Settings::adaptive() }
+}
+
+/// A lone pixel that is lit although its albedo is black takes that of its neighbours: light over almost nothing would outshine them all.
+fn fill_lone_black(pixels: &Pixels, albedo: &mut [f32], [width, height]: [u32; 2]) {
+    let given: Vec<[f32; 3]> = albedo.as_chunks::<3>().0.to_vec();
+    let [width, height] = [width, height].map(|side| side as usize);
+    let lit =
+        |i: usize| three(pixels, Layer::Color, i).iter().sum::<f32>() > three(pixels, Layer::Emission, i).iter().sum();
+    for i in (0..given.len()).filter(|&i| given[i].iter().all(|&x| x < BLACK) && lit(i)) {
+        let near = |at: usize, side: usize| at.saturating_sub(1)..=(at + 1).min(side - 1);
+        let around = near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x));
+        let bright: Vec<[f32; 3]> = around
+            .filter(|&j| is_same(pixels, i, pixels, j) && given[j].iter().any(|&x| x >= BLACK))
+            .map(|j| given[j])
+            .collect();
+        if bright.len() >= LONELY - 1 {
+            let mean = |c: usize| bright.iter().map(|a| a[c]).sum::<f32>() / bright.len() as f32;
+            albedo[3 * i..3 * i + 3].copy_from_slice(&[0, 1, 2].map(mean));
+        }
+    }
 }
 
 /// Of each pixel, the part of its surface whose albedo is noise: not a number of 0…1, black in the middle of what is not, or not within what the 3×3 pixels of

@@ -199,7 +199,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
             "map" => source.names.push(value()?.mapping()?),
             "layer" => source.view_layer = Some(value()?.text),
             "frames" => source.frames = Some(value()?.range()?),
-            "cut" => source.cuts.extend(value()?.list(|v| v.whole(0..=999_999_999))?),
+            "cut" => source.cuts.extend(value()?.list(|v| v.whole(0..=999_999_999).map(i64::from))?),
             "fov-y" => source.fov_y = Some(value()?.number(0.01..=179.0)?.to_radians()),
             "preset" => {
                 let classic = value()?.one_of(&[("default", false), ("classic", true)])?;
@@ -252,10 +252,13 @@ impl Value {
         if names.iter().any(String::is_empty) { Err(wrong()) } else { Ok(Mapping { layer, names, meaning }) }
     }
 
-    fn range(&self) -> Result<[u32; 2], Usage> {
-        let parts = self.text.split_once('-').unwrap_or((&self.text, &self.text));
+    fn range(&self) -> Result<[i64; 2], Usage> {
+        // A dash in front is a sign.
+        let middle = self.text.char_indices().skip(1).find(|(_, c)| *c == '-').map(|(at, _)| at);
+        let parts =
+            middle.map_or((self.text.as_str(), self.text.as_str()), |at| (&self.text[..at], &self.text[at + 1..]));
         let numbers = parts.0.trim().parse().ok().zip(parts.1.trim().parse().ok());
-        let range = numbers.filter(|(from, to): &(u32, u32)| from <= to).map(|(from, to)| [from, to]);
+        let range = numbers.filter(|(from, to): &(i64, i64)| from <= to).map(|(from, to)| [from, to]);
         range.ok_or_else(|| self.wrong("must be two numbers of frames, as in 101-148"))
     }
 }

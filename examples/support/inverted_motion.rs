@@ -15,6 +15,8 @@ pub fn inverted(motion: &[f32], [width, height]: [u32; 2]) -> Vec<f32> {
         finite(m[y as usize * width as usize + x as usize])
     };
     let bilinear = |x: f32, y: f32| {
+        let inside = |v: f32, side: u32| v.clamp(0.0, (side - 1) as f32);
+        let (x, y) = (inside(x, width), inside(y, height));
         let (left, top) = (x.floor(), y.floor());
         let (u, v) = (x - left, y - top);
         let (left, top) = (left as i64, top as i64);

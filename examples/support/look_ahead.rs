@@ -21,9 +21,9 @@ pub struct Denoised {
     /// Of each frame, forwards.
     pub times: Vec<PassTimes>,
     /// The first frame that was denoised by itself, as it had the noise of the one before.
-    pub repeated: Option<u32>,
+    pub repeated: Option<i64>,
     /// Frames that were found to begin another shot.
-    pub cuts: Vec<u32>,
+    pub cuts: Vec<i64>,
     /// What seems wrong with the motion.
     pub complaint: Option<String>,
 }

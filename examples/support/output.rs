@@ -55,6 +55,12 @@ impl Sink for Files<'_> {
     }
 }
 
+/// All files that a frame becomes.
+pub fn paths(options: &Options, sequence: &Sequence, index: usize) -> Vec<PathBuf> {
+    let names = options.outputs.iter().flat_map(|&(name, _)| options.formats.iter().map(move |&format| (name, format)));
+    names.map(|(name, format)| path(options, sequence, index, name, format)).collect()
+}
+
 /// Where an image of a frame goes.
 fn path(options: &Options, sequence: &Sequence, index: usize, name: &str, format: Format) -> PathBuf {
     let file = &sequence.files[index];
@@ -97,7 +103,9 @@ fn write_denoised(
         file.with_channels(&names[0], &channels)
     };
     if let Some(sample_type) = options.sample_type {
-        written.set_sample_type(sample_type);
+        let mut colors = if options.keep_channels { names } else { ["R", "G", "B"].map(str::to_owned).to_vec() };
+        colors.push("A".to_owned());
+        written.set_sample_type(sample_type, &colors);
     }
     if let Some(compression) = options.compression {
         written.set_compression(compression);

@@ -61,16 +61,7 @@ const CUT: f64 = 0.95;
 impl<'a, 'g> Player<'a, 'g> {
     pub fn new(film: &'a mut Film<'g>, sequence: &'a Sequence, backwards: bool) -> Self {
         let albedo = CleanAlbedo::new(film.gpu, sequence.size);
-        Self {
-            film,
-            sequence,
-            backwards,
-            last: None,
-            seed: FixedSeed::default(),
-            played: sequence.files[0].number,
-            albedo,
-            gloss: None,
-        }
+        Self { film, sequence, backwards, last: None, seed: FixedSeed::default(), played: 0, albedo, gloss: None }
     }
 
     pub fn film(&mut self) -> &mut Film<'g> {
@@ -88,7 +79,7 @@ impl<'a, 'g> Player<'a, 'g> {
         let at = |i: usize| Some([motion[2 * i], motion[2 * i + 1]]).filter(|m| m.iter().all(|x| x.is_finite()));
         let told = last.as_ref().filter(|_| sequence.has_surfaces());
         let found = told.map_or(Matches::default(), |(_, last)| motion::matches(pixels, last, raster, false, at));
-        let cut = found.compared > 0 && found.lost() >= CUT;
+        let cut = found.tells() && found.lost() >= CUT;
         let readings = match told.filter(|_| sequence.has(Layer::Motion) && !self.backwards) {
             Some((_, last)) => motion::readings(pixels, last, &motion, raster),
             None => Vec::new(),

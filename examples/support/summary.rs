@@ -41,7 +41,7 @@ pub fn before(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -
     out
 }
 
-fn ordinal(step: u32) -> String {
+fn ordinal(step: i64) -> String {
     match step {
         2 => "second".into(),
         3 => "third".into(),
@@ -87,6 +87,15 @@ fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> Str
 /// What is taken where nothing was said, and what that may cost.
 fn notes(sequence: &Sequence) -> Vec<String> {
     let mut notes = Vec::new();
+    if sequence.blank_depth {
+        notes.push("all depths are 0: they are taken for absent".into());
+    } else if sequence.depth_sign < 0.0 {
+        notes.push("all depths are below 0: they are taken for those of what lies before the camera".into());
+    }
+    if !sequence.borrowed.is_empty() {
+        let frames = sequence.borrowed.join(", ");
+        notes.push(format!("frames {frames} tell nothing of their camera: that of the nearest one that does is taken"));
+    }
     if !sequence.has_surfaces() {
         notes.push(
             "no depth: what lies behind is told by light alone, and borders between surfaces of one light are blurred; nothing is known \
@@ -143,7 +152,7 @@ pub fn after(denoised: &Denoised) -> String {
         );
     }
     if !denoised.cuts.is_empty() {
-        let cuts: Vec<String> = denoised.cuts.iter().map(u32::to_string).collect();
+        let cuts: Vec<String> = denoised.cuts.iter().map(i64::to_string).collect();
         out += &format!(
             "note: frames {} begin another shot: nothing in them is where it was; they were denoised anew\n",
             cuts.join(", ")

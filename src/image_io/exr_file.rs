@@ -9,7 +9,7 @@ use exr::meta::attribute::AttributeValue;
 use exr::meta::header::{ImageAttributes, LayerAttributes};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatImage, FlatSamples, Image, IntegerBounds, Layer, ReadChannels as _,
-    ReadLayers as _, Vec2, WritableImage as _, f16, read as exr_reader,
+    ReadLayers as _, Text, Vec2, WritableImage as _, f16, read as exr_reader,
 };
 
 use crate::image_io::files::{MAX_BYTES, check_side, read_file, replace};
@@ -123,7 +123,10 @@ impl ExrFile {
         let error = |reason: String| ImageError::new(path, reason);
         let bytes = read_file(path).map_err(error)?;
         // The size is looked at before memory is taken for it.
-        let broken = |cause: exr::error::Error| error(format!("is no EXR file, or is damaged or cut short: {cause}"));
+        let broken = |cause: exr::error::Error| match cause {
+            exr::error::Error::NotSupported(what) => error(format!("holds what is not read: {what}")),
+            cause => error(format!("is no EXR file, or is damaged or cut short: {cause}")),
+        };
         let meta = MetaData::read_from_buffered(bytes.as_slice(), false).map_err(broken)?;
         let mut total = 0_u64;
         let mut window: Option<Window> = None;
@@ -248,16 +251,18 @@ impl ExrFile {
         Self { image: Image { attributes: self.image.attributes.clone(), layer_data: [part].into_iter().collect() } }
     }
 
-    /// Has all floats written as this type.
-    pub fn set_sample_type(&mut self, sample_type: SampleType) {
+    /// Has the floats of channels written as this type, by the names of [`ExrFile::names`]. Depths and numbers of objects may be too large for 16 bits.
+    pub fn set_sample_type(&mut self, sample_type: SampleType, names: &[String]) {
         let like = match sample_type {
             SampleType::Half => FlatSamples::F16(Vec::new()),
             SampleType::Float => FlatSamples::F32(Vec::new()),
         };
-        let channels = self.image.layer_data.iter_mut().flat_map(|layer| &mut layer.channel_data.list);
-        for channel in channels.filter(|channel| !matches!(channel.sample_data, FlatSamples::U32(_))) {
-            let samples: Vec<f32> = channel.sample_data.values_as_f32().collect();
-            channel.sample_data = as_stored(&samples, &like);
+        for (_, part, number) in self.named().into_iter().filter(|(name, ..)| names.contains(name)) {
+            let channel = &mut self.image.layer_data[part].channel_data.list[number];
+            if !matches!(channel.sample_data, FlatSamples::U32(_)) {
+                let samples: Vec<f32> = channel.sample_data.values_as_f32().collect();
+                channel.sample_data = as_stored(&samples, &like);
+            }
         }
     }
 
@@ -297,10 +302,10 @@ impl ExrFile {
         let several = self.image.layer_data.len() > 1;
         let parts = self.image.layer_data.iter().enumerate();
         let of_part = |(part, layer): (usize, &Layer<AnyChannels<FlatSamples>>)| {
-            let name = layer.attributes.layer_name.as_ref().map(ToString::to_string).filter(|_| several);
+            let name = layer.attributes.layer_name.as_ref().map(text).filter(|_| several);
             let channels = layer.channel_data.list.iter().enumerate();
             let full = |(number, channel): (usize, &AnyChannel<FlatSamples>)| {
-                (full_name(name.as_deref(), channel.name.to_string()), part, number)
+                (full_name(name.as_deref(), text(&channel.name)), part, number)
             };
             channels.map(full).collect::<Vec<_>>()
         };
@@ -316,6 +321,11 @@ fn full_name(part: Option<&str>, channel: String) -> String {
         }
         _ => channel,
     }
+}
+
+/// A name as its program wrote it: in UTF-8, where it is that.
+fn text(name: &Text) -> String {
+    String::from_utf8(name.bytes().to_vec()).unwrap_or_else(|_| name.to_string())
 }
 
 fn window_of(position: Vec2<i32>, size: Vec2<usize>) -> Window {

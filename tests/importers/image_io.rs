@@ -103,7 +103,7 @@ fn what_an_exr_file_says_beside_its_samples_is_kept() {
     }
     let read = read_exr(folder.0.join("whole.exr")).unwrap();
     assert_eq!(read.get("id").unwrap()[3], 4e9);
-    file.set_sample_type(SampleType::Float);
+    file.set_sample_type(SampleType::Float, &file.names());
     file.set_compression(Compression::Zip);
     file.write(&path).unwrap();
     let read = exr::prelude::read_all_data_from_file(&path).unwrap();

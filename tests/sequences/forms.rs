@@ -279,7 +279,7 @@ fn gaps_and_cuts_begin_anew() {
     let sequence = Sequence::open(Source { frames: Some([2, 3]), ..source() }, |_| {}).unwrap();
     assert_eq!((sequence.frames(), sequence.files[0].number), (2, 2));
     for (source, reason) in [
-        (Source { cuts: vec![9], ..source() }, "has no frame 9, which --cut names"),
+        (Source { cuts: vec![9], ..source() }, "has frames 1 to 4, none of which is that of --cut 9"),
         (Source { frames: Some([7, 9]), ..source() }, "has frames 1 to 4, none of --frames 7-9"),
     ] {
         let error = Sequence::open(source, |_| {}).unwrap_err().to_string();
@@ -294,7 +294,7 @@ fn frames_keep_their_cameras() {
     [1, 2, 4].iter().for_each(|&number| folder.write(number, &plain(0)));
     let camera =
         |x: f64| serde_json::json!({"o": [x, 0, 0], "fw": [0, 0, -1], "r": [1, 0, 0], "up": [0, 1, 0], "th": 0.5});
-    let eyes = |cameras: &[f64], range: Option<[u32; 2]>| {
+    let eyes = |cameras: &[f64], range: Option<[i64; 2]>| {
         let cameras: Vec<_> = cameras.iter().map(|&x| camera(x)).collect();
         let manifest = serde_json::json!({ "cameras": cameras }).to_string();
         fs::write(folder.0.join("manifest.json"), manifest).unwrap();
@@ -408,7 +408,8 @@ fn what_goes_in_comes_out() {
         let path = folder.0.join(format!("shot.{number:06}.exr"));
         write_exr(&path, &image).unwrap();
         let mut file = ExrFile::read(&path).unwrap();
-        file.set_sample_type(SampleType::Half);
+        let names = file.names();
+        file.set_sample_type(SampleType::Half, &names);
         file.set_compression(Compression::Piz);
         file.write(&path).unwrap();
     }

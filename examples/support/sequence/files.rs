@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// A file with the number of its frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFile {
-    pub number: u32,
+    pub number: i64,
     /// The number as the name has it, zeros in front included.
     pub digits: String,
     pub path: PathBuf,
@@ -64,12 +64,17 @@ pub fn list(input: &Path) -> Result<Vec<FrameFile>, SequenceError> {
     };
     let entries = fs::read_dir(&folder).map_err(|e| wrong(&folder, format!("cannot be read: {e}")))?;
     let mut names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
-    names.retain(|name| name.to_lowercase().ends_with(".exr"));
+    // Names that begin with a dot are hidden, as those that macOS leaves beside files.
+    names.retain(|name| name.to_lowercase().ends_with(".exr") && !name.starts_with('.'));
     names.sort();
-    let groups = groups(&names);
     let (template, members) = match &wanted {
-        Some(name) => pick_named(&groups, name).ok_or_else(|| wrong(input, "is no frame: its name has no number"))?,
-        None => pick(&groups).map_err(|reason| wrong(&folder, reason))?,
+        Some(name) => pick_named(&names, name)
+            .ok_or_else(|| wrong(input, "there is no file with a number in its name that fits"))?,
+        None => {
+            let groups = groups(&names);
+            let (template, members) = pick(&groups).map_err(|reason| wrong(&folder, reason))?;
+            (template.clone(), members.clone())
+        }
     };
     let mut files: Vec<FrameFile> = Vec::new();
     for digits in members {
@@ -85,7 +90,7 @@ pub fn list(input: &Path) -> Result<Vec<FrameFile>, SequenceError> {
 }
 
 /// Those of the frames with numbers from one to another.
-pub fn within(files: &[FrameFile], [from, to]: [u32; 2]) -> Vec<FrameFile> {
+pub fn within(files: &[FrameFile], [from, to]: [i64; 2]) -> Vec<FrameFile> {
     files.iter().filter(|file| (from..=to).contains(&file.number)).cloned().collect()
 }
 
@@ -114,8 +119,11 @@ fn numbers(name: &str) -> Vec<(Template, String)> {
     while at < stem {
         let digits = bytes[at..].iter().take_while(|b| b.is_ascii_digit()).count();
         if (1..=MOST_DIGITS).contains(&digits) {
-            let template = Template { before: name[..at].into(), after: name[at + digits..].into() };
-            found.push((template, name[at..at + digits].into()));
+            // After another separator or in front, a dash is a sign.
+            let signed = at > 0 && bytes[at - 1] == b'-' && (at == 1 || matches!(bytes[at - 2], b'_' | b'.' | b'-'));
+            let first = at - usize::from(signed);
+            let template = Template { before: name[..first].into(), after: name[at + digits..].into() };
+            found.push((template, name[first..at + digits].into()));
         }
         at += digits.max(1);
     }
@@ -134,7 +142,11 @@ fn pick(groups: &BTreeMap<Template, Vec<String>>) -> Result<Group<'_>, String> {
         let name = template.before.trim_end_matches(['_', '.', '-']).to_lowercase();
         !NOT_FRAMES.contains(&name.as_str())
     };
-    let frames: Vec<Group<'_>> = groups.iter().filter(is_frame).collect();
+    let mut frames: Vec<Group<'_>> = groups.iter().filter(is_frame).collect();
+    if frames.is_empty() {
+        frames = groups.iter().collect();
+    }
+    frames.sort_by_key(|(_, members)| std::cmp::Reverse(members.len()));
     match frames.as_slice() {
         [only] => Ok(*only),
         [] => Err("there are no frames: names such as frame_0001.exr, shot.1001.exr or 0001.exr are read".into()),
@@ -149,22 +161,33 @@ fn pick(groups: &BTreeMap<Template, Vec<String>>) -> Result<Group<'_>, String> {
     }
 }
 
-/// The sequence of a pattern or a file's name.
-fn pick_named<'a>(groups: &'a BTreeMap<Template, Vec<String>>, name: &str) -> Option<Group<'a>> {
-    if let Some(at) = name.find('#') {
-        let after = name[at..].trim_start_matches('#');
-        return groups.iter().find(|(template, _)| template.before == name[..at] && template.after == after);
-    }
-    groups.iter().find(|(t, members)| members.iter().any(|digits| format!("{}{digits}{}", t.before, t.after) == name))
+/// The sequence of a pattern or of a file: of its numbers, the last one that other files differ in, else that of its group.
+fn pick_named(names: &[String], name: &str) -> Option<(Template, Vec<String>)> {
+    let members = |wanted: &Template| -> Vec<String> {
+        let of = |name: &String| {
+            numbers(name).into_iter().find(|(template, _)| template == wanted).map(|(_, digits)| digits)
+        };
+        names.iter().filter_map(of).collect()
+    };
+    let templates: Vec<Template> = match name.find('#') {
+        Some(at) => vec![Template { before: name[..at].into(), after: name[at..].trim_start_matches('#').into() }],
+        None => numbers(name).into_iter().rev().map(|(template, _)| template).collect(),
+    };
+    let several = templates.iter().find(|template| members(template).len() > 1);
+    let template = several.or_else(|| templates.iter().find(|template| !members(template).is_empty()))?;
+    Some((template.clone(), members(template)))
 }
 
-/// The step from frame to frame that most of them have, and which frames do not follow the one before by it.
-pub fn gaps(files: &[FrameFile]) -> (u32, Vec<usize>) {
-    let steps: Vec<u32> = files.windows(2).map(|pair| pair[1].number - pair[0].number).collect();
-    let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
+/// The step from frame to frame that most of them have.
+pub fn usual_step(files: &[FrameFile]) -> i64 {
+    let steps: Vec<i64> = files.windows(2).map(|pair| pair[1].number - pair[0].number).collect();
+    let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
     steps.iter().for_each(|&step| *counts.entry(step).or_default() += 1);
     // Of equally many, the least.
-    let usual = counts.iter().rev().max_by_key(|(_, count)| **count).map_or(1, |(&step, _)| step);
-    let gaps = steps.iter().enumerate().filter(|(_, step)| **step != usual).map(|(i, _)| i + 1).collect();
-    (usual, gaps)
+    counts.iter().rev().max_by_key(|(_, count)| **count).map_or(1, |(&step, _)| step)
+}
+
+/// Which frames do not follow the one before by a step.
+pub fn gaps(files: &[FrameFile], step: i64) -> Vec<usize> {
+    (1..files.len()).filter(|&i| files[i].number - files[i - 1].number != step).collect()
 }

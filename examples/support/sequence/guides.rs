@@ -19,6 +19,15 @@ pub fn complete(pixels: &mut Pixels, camera: &Camera, raster: Raster) {
             normals.iter_mut().filter(|n| dot(n.map(f64::from), n.map(f64::from)) < 1e-12).for_each(|n| *n = facing);
         }
     }
+    let broken = |n: &[f32; 3]| n.iter().any(|x| !x.is_finite());
+    let is_broken = pixels.get(Layer::Normal).is_some_and(|n| n.as_chunks::<3>().0.iter().any(broken));
+    if has_normal && is_broken && has_depth {
+        let made = normals_of(pixels.get(Layer::Depth).unwrap_or_default(), camera, raster);
+        if let Some(normals) = pixels.0[Layer::Normal as usize].as_mut() {
+            let pairs = normals.as_chunks_mut::<3>().0.iter_mut().zip(made.as_chunks::<3>().0);
+            pairs.filter(|(n, _)| broken(n)).for_each(|(n, made)| *n = *made);
+        }
+    }
     if !has_normal {
         let normals = match pixels.get(Layer::Depth).filter(|_| has_depth) {
             Some(depths) => normals_of(depths, camera, raster),

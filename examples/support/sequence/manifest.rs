@@ -12,13 +12,13 @@ pub struct Manifest {
     /// One for each frame, or none.
     pub cameras: Vec<Camera>,
     /// Numbers of frames that begin another shot.
-    pub cuts: Vec<u32>,
+    pub cuts: Vec<i64>,
     /// The gradient's paths stand in the colour in the place of their pixels' own.
     pub in_place: bool,
 }
 
 /// Reads what it says of some of a folder's frames, which are usually a step apart, if there is one.
-pub fn read(folder: &Path, all: &[FrameFile], files: &[FrameFile], step: u32) -> Result<Manifest, SequenceError> {
+pub fn read(folder: &Path, all: &[FrameFile], files: &[FrameFile], step: i64) -> Result<Manifest, SequenceError> {
     let path = folder.join("manifest.json");
     if !path.exists() {
         return Ok(Manifest::default());
@@ -30,26 +30,33 @@ pub fn read(folder: &Path, all: &[FrameFile], files: &[FrameFile], step: u32) ->
         Value::Null => Vec::new(),
         list => numbers(list).ok_or_else(|| wrong(&path, "cuts must be a list of the numbers of frames"))?,
     };
-    let Some(list) = json["cameras"].as_array() else { return Ok(Manifest { cameras: Vec::new(), cuts, in_place }) };
-    let missing = |frames| {
-        let found = list.len();
-        wrong(&path, format!("has {found} cameras for {frames} frames: give one for each, in order"))
+    let list = match &json["cameras"] {
+        Value::Null => return Ok(Manifest { cameras: Vec::new(), cuts, in_place }),
+        given => given.as_array().ok_or_else(|| wrong(&path, "cameras must be a list"))?,
+    };
+    let mismatch = || {
+        let (found, frames) = (list.len(), all.len());
+        let remedy = "give one for each, in order, or one for all, or \"frames\", a list of their numbers";
+        wrong(&path, format!("has {found} cameras for {frames} frames: {remedy}"))
     };
     let (first, last) = (all[0].number, all[all.len() - 1].number);
     let span = ((last - first) / step) as usize + 1;
-    // One for each file, or one for each frame, those included that are missing.
-    let index = |file: &FrameFile| match () {
-        () if list.len() >= span => Some(((file.number - first) / step) as usize),
-        () if list.len() >= all.len() => all.iter().position(|known| known.number == file.number),
-        () => None,
+    let named = numbers(&json["frames"]).filter(|frames| frames.len() == list.len());
+    // By their numbers; one for all; one for each file; or one for each frame, those included that are missing.
+    let index = |file: &FrameFile| match &named {
+        Some(frames) => frames.iter().position(|number| *number == file.number),
+        None if list.len() == 1 => Some(0),
+        None if list.len() == all.len() => all.iter().position(|known| known.number == file.number),
+        None if list.len() == span => Some(((file.number - first) / step) as usize),
+        None => None,
     };
     let chosen: Option<Vec<usize>> = files.iter().map(index).collect();
-    let chosen = chosen.ok_or_else(|| missing(all.len()))?;
+    let chosen = chosen.ok_or_else(mismatch)?;
     let camera = |&i: &usize| Camera::from_json(&list[i]).map_err(|e| wrong(&path, format!("camera {i}: {e}")));
     let cameras = chosen.iter().map(camera).collect::<Result<_, _>>()?;
     Ok(Manifest { cameras, cuts, in_place })
 }
 
-fn numbers(list: &Value) -> Option<Vec<u32>> {
-    list.as_array()?.iter().map(|value| u32::try_from(value.as_u64()?).ok()).collect()
+fn numbers(list: &Value) -> Option<Vec<i64>> {
+    list.as_array()?.iter().map(Value::as_i64).collect()
 }

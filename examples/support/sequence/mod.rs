@@ -47,9 +47,9 @@ pub struct Source {
     /// Vertical field of view, in radians.
     pub fov_y: Option<f32>,
     /// The first and the last frame to read.
-    pub frames: Option<[u32; 2]>,
+    pub frames: Option<[i64; 2]>,
     /// Numbers of frames that begin another shot.
-    pub cuts: Vec<u32>,
+    pub cuts: Vec<i64>,
 }
 
 impl From<&Path> for Source {
@@ -82,13 +82,19 @@ pub enum Break {
     Cut,
 }
 
+/// Most columns and rows that all windows may span.
+const LARGEST: u32 = 16_384;
+
+/// What an albedo is at most before it is cleaned.
+const MOST_ALBEDO: f32 = 16.0;
+
 /// Frames that were looked at, each: all are whole, are of one picture, and have the same layers.
 #[derive(Debug)]
 pub struct Sequence {
     source: Source,
     pub files: Vec<FrameFile>,
     /// The usual step from one frame's number to the next one's.
-    pub step: u32,
+    pub step: i64,
     /// Of each frame, why it does not continue the one before.
     pub breaks: Vec<Option<Break>>,
     /// Columns and rows that any frame has pixels in.
@@ -109,6 +115,12 @@ pub struct Sequence {
     pub eye: Eye,
     /// Normals are in the camera's own space, which it looks along this sign of Z of.
     pub normals_of_view: Option<f64>,
+    /// What depths are multiplied with: −1 if all are below 0, as some programs have it.
+    pub depth_sign: f32,
+    /// There are depths, but all are 0.
+    pub blank_depth: bool,
+    /// Frames that tell nothing of their camera, and have that of the nearest one that does.
+    pub borrowed: Vec<String>,
     /// The gradient's paths stand in the colour in the place of their pixels' own.
     pub in_place: bool,
     /// Pixels stand for areas, not for points, and why.
@@ -164,19 +176,22 @@ impl Sequence {
             let [from, to] = source.frames.unwrap_or_default();
             return Err(wrong(&source.input, format!("has frames {first} to {last}, none of --frames {from}-{to}")));
         };
-        let (step, gaps) = files::gaps(&files);
+        let step = files::usual_step(&all);
+        let gaps = files::gaps(&files, step);
         let count = files.len();
-        let (usual, _) = files::gaps(&all);
-        let manifest = manifest::read(start.path.parent().unwrap_or(Path::new(".")), &all, &files, usual)?;
-        let cuts: Vec<u32> = source.cuts.iter().chain(&manifest.cuts).copied().collect();
-        let unknown = source.cuts.iter().find(|cut| !files.iter().any(|file| file.number == **cut));
-        if let Some(cut) = unknown {
-            return Err(wrong(&source.input, format!("has no frame {cut}, which --cut names")));
+        let manifest = manifest::read(start.path.parent().unwrap_or(Path::new(".")), &all, &files, step)?;
+        let cuts: Vec<i64> = source.cuts.iter().chain(&manifest.cuts).copied().collect();
+        if let Some(cut) = source.cuts.iter().find(|cut| !(first..=last).contains(cut)) {
+            return Err(wrong(
+                &source.input,
+                format!("has frames {first} to {last}, none of which is that of --cut {cut}"),
+            ));
         }
-        let break_at = |(i, file): (usize, &FrameFile)| match () {
-            () if i > 0 && cuts.contains(&file.number) => Some(Break::Cut),
-            () if gaps.contains(&i) => Some(Break::Gap),
-            () => None,
+        let break_at = |(i, file): (usize, &FrameFile)| {
+            let before = i.checked_sub(1).map(|before| files[before].number)?;
+            // A cut between two frames of a render on twos begins with the second.
+            let is_cut = cuts.iter().any(|cut| (before + 1..=file.number).contains(cut));
+            if is_cut { Some(Break::Cut) } else { gaps.contains(&i).then_some(Break::Gap) }
         };
         let mut sequence = Self {
             breaks: files.iter().enumerate().map(break_at).collect(),
@@ -193,26 +208,48 @@ impl Sequence {
             cameras: manifest.cameras,
             eye: Eye::Given,
             normals_of_view: None,
+            depth_sign: 1.0,
+            blank_depth: false,
+            borrowed: Vec::new(),
             in_place: manifest.in_place,
             area: None,
         };
         let given = !sequence.cameras.is_empty();
         let mut seen = Vec::new();
         let mut display = None;
+        // Depths above and below 0.
+        let mut signs = [0_usize; 2];
         for index in 0..count {
             let frame = sequence.look_at(index, display)?;
             sequence.window = if index == 0 { frame.window } else { sequence.window.union(frame.window) };
             display = Some((frame.display, frame.aspect));
+            for &z in frame.places.get(Layer::Depth).iter().flat_map(|place| &frame.image.channels[place.channels[0]].1)
+            {
+                signs[0] += usize::from(z > 0.0);
+                signs[1] += usize::from(z < 0.0);
+            }
+            let [width, height] = sequence.window.size;
+            if width > LARGEST || height > LARGEST {
+                return Err(wrong(
+                    &sequence.files[index].path,
+                    format!("its window and those before it span {width}×{height} pixels: at most {LARGEST} a side"),
+                ));
+            }
             if !given {
                 seen.push(sequence.see(&frame));
             }
             looked(count as u32);
         }
+        if sequence.has(Layer::Depth) && signs[0] == 0 {
+            sequence.blank_depth = signs[1] == 0;
+            sequence.depth_sign = -1.0;
+            sequence.layers.retain(|layer| *layer != Layer::Depth || signs[1] > 0);
+        }
         sequence.size = sequence.window.size;
         let (display, aspect) = display.unwrap_or((sequence.window, 1.0));
         sequence.raster = raster(sequence.window, display, aspect);
         if !given {
-            (sequence.cameras, sequence.eye) = sequence.cameras_of(&seen);
+            (sequence.cameras, sequence.eye, sequence.borrowed) = sequence.cameras_of(&seen);
         }
         if matches!(sequence.eye, Eye::Given | Eye::Described) && sequence.has(Layer::Normal) {
             sequence.normals_of_view = sequence.space_of_normals()?;
@@ -264,6 +301,16 @@ impl Sequence {
             None => None,
         });
         let mut pixels = Pixels(samples.collect());
+        if !self.has_surfaces() {
+            pixels.set(Layer::Depth, None);
+        }
+        if let Some(depths) = pixels.0[Layer::Depth as usize].as_mut() {
+            depths.iter_mut().for_each(|z| *z *= self.depth_sign);
+        }
+        if let Some(albedo) = pixels.0[Layer::Albedo as usize].as_mut() {
+            // Filters of pixels have lobes below 0, and paths through metal values of any size: neither is more black or more white for that.
+            albedo.iter_mut().filter(|x| x.is_finite()).for_each(|x| *x = x.clamp(0.0, MOST_ALBEDO));
+        }
         if let (Some(sign), Some(normals)) = (self.normals_of_view, pixels.0[Layer::Normal as usize].as_mut()) {
             for n in normals.as_chunks_mut::<3>().0 {
                 let [x, y, z] = n.map(f64::from);

@@ -28,12 +28,20 @@ pub const READINGS: [(&str, [f32; 4]); 9] = [
 pub struct Matches {
     pub compared: usize,
     pub same: usize,
+    /// Pixels of the image that were looked at.
+    pub of: usize,
 }
 
 impl Matches {
     pub fn add(&mut self, other: Self) {
         self.compared += other.compared;
         self.same += other.same;
+        self.of += other.of;
+    }
+
+    /// Whether enough of the image was compared to speak for it: a bird in the sky is no shot.
+    pub fn tells(self) -> bool {
+        self.compared > 0 && 20 * self.compared >= self.of
     }
 
     /// The part of surfaces that were not found, 0 if nothing could be looked at.
@@ -93,8 +101,9 @@ pub fn matches(
     let albedos = now.get(Layer::Albedo).zip(before.get(Layer::Albedo)).filter(|_| by_albedo);
     let three = |samples: &[f32], i: usize| [samples[3 * i], samples[3 * i + 1], samples[3 * i + 2]].map(f64::from);
     let mut matches = Matches::default();
-    for i in (0..count).step_by((count / PIXELS) | 1).filter(|&i| depth[i] > 0.0 && depth[i].is_finite()) {
-        let Some(m) = motion(i) else { continue };
+    for i in (0..count).step_by((count / PIXELS) | 1) {
+        matches.of += 1;
+        let Some(m) = motion(i).filter(|_| depth[i] > 0.0 && depth[i].is_finite()) else { continue };
         let place = [(i as u32 % width) as f32 + m[0], (i as u32 / width) as f32 + m[1]].map(f32::round);
         if !(place[0] >= 0.0 && place[1] >= 0.0 && place[0] < width as f32 && place[1] < height as f32) {
             continue;
@@ -104,7 +113,7 @@ pub fn matches(
         let near = (depth_before[j] / depth[i] - 1.0).abs() < 0.1;
         let turned = dot(three(normal, i), three(normal_before, j))
             >= 0.9 * length(three(normal, i)) * length(three(normal_before, j));
-        let object = ids.is_none_or(|(now, before)| now[i] == before[j]);
+        let object = ids.is_none_or(|(now, before)| now[i].to_bits() == before[j].to_bits());
         let albedo = albedos.is_none_or(|(now, before)| {
             // What is no albedo tells nothing.
             let is_one = |a: &[f32]| a.iter().all(|x| (0.0..=1.0).contains(x)) && a.iter().any(|x| *x > 0.0);

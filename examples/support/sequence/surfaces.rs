@@ -7,7 +7,7 @@ use crate::camera::dot;
 /// Whether pixels of two frames, or of one, may show one surface: one object, depths within a tenth, directions within 37°.
 pub fn is_same(pixels: &Pixels, i: usize, other: &Pixels, j: usize) -> bool {
     let normals = [three(pixels, Layer::Normal, i), three(other, Layer::Normal, j)].map(|n| n.map(f64::from));
-    one(pixels, Layer::Id, i) == one(other, Layer::Id, j)
+    one(pixels, Layer::Id, i).to_bits() == one(other, Layer::Id, j).to_bits()
         && (one(other, Layer::Depth, j) / one(pixels, Layer::Depth, i) - 1.0).abs() < 0.1
         && dot(normals[0], normals[1]) > 0.8
 }
