@@ -162,12 +162,12 @@ fn fill_lone_black(pixels: &Pixels, albedo: &mut [f32], [width, height]: [u32; 2
         |i: usize| three(pixels, Layer::Color, i).iter().sum::<f32>() > three(pixels, Layer::Emission, i).iter().sum();
     for i in (0..given.len()).filter(|&i| given[i].iter().all(|&x| x < BLACK) && lit(i)) {
         let near = |at: usize, side: usize| at.saturating_sub(1)..=(at + 1).min(side - 1);
-        let around = near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x));
-        let bright: Vec<[f32; 3]> = around
-            .filter(|&j| is_same(pixels, i, pixels, j) && given[j].iter().any(|&x| x >= BLACK))
-            .map(|j| given[j])
-            .collect();
-        if bright.len() >= LONELY - 1 {
+        let around: Vec<usize> =
+            near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x)).collect();
+        let is_bright = |&&j: &&usize| is_same(pixels, i, pixels, j) && given[j].iter().any(|&x| x >= BLACK);
+        let bright: Vec<[f32; 3]> = around.iter().filter(is_bright).map(|&j| given[j]).collect();
+        // All but itself and one, at borders too.
+        if bright.len() + 2 >= around.len() && !bright.is_empty() {
             let mean = |c: usize| bright.iter().map(|a| a[c]).sum::<f32>() / bright.len() as f32;
             albedo[3 * i..3 * i + 3].copy_from_slice(&[0, 1, 2].map(mean));
         }

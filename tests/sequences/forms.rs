@@ -252,6 +252,20 @@ fn file_names_are_read_as_people_write_them() {
     for input in ["a.####.exr", "a.2.exr"] {
         assert_eq!(Sequence::open(folder.0.join(input).as_path(), |_| {}).unwrap().frames(), 2);
     }
+    // Of names with several numbers, a pattern or a file says which is the frame's. Hidden files are none.
+    let grid = ["cam1_1.exr", "cam1_2.exr", "cam2_1.exr", "cam2_2.exr", "cam3_1.exr", "cam3_2.exr", "._cam1_1.exr"];
+    let folder = names(&grid);
+    for input in ["cam1_####.exr", "cam1_1.exr"] {
+        let sequence = Sequence::open(folder.0.join(input).as_path(), |_| {}).unwrap();
+        assert_eq!(sequence.files.iter().map(|file| file.number).collect::<Vec<_>>(), [1, 2], "{input}");
+    }
+    let numbers = |list: &[&str]| {
+        let sequence = names(list).open().unwrap();
+        sequence.files.iter().map(|file| file.number).collect::<Vec<_>>()
+    };
+    assert_eq!(numbers(&["f_-002.exr", "f_-001.exr", "f_0000.exr", "f_0001.exr"]), [-2, -1, 0, 1]);
+    assert_eq!(numbers(&["take-1.exr", "take-2.exr"]), [1, 2]);
+    assert_eq!(numbers(&["noisy_0001.exr", "noisy_0002.exr"]), [1, 2], "the only ones that there are");
     let folder = names(&["a_01.exr", "a_1.exr"]);
     assert!(folder.open().unwrap_err().to_string().contains("is frame 1, and so is"));
 }
@@ -271,6 +285,12 @@ fn gaps_and_cuts_begin_anew() {
     write(&[1, 3, 5, 9]);
     let sequence = folder.open().unwrap();
     assert_eq!((sequence.step, sequence.breaks.as_slice()), (2, [None, None, None, Some(Break::Gap)].as_slice()));
+    // A cut in a frame that was not rendered.
+    fs::write(folder.0.join("manifest.json"), r#"{"cuts": [4]}"#).unwrap();
+    assert_eq!(folder.open().unwrap().breaks, [None, None, Some(Break::Cut), Some(Break::Gap)]);
+    // A part of a sequence with a gap has that gap.
+    let part = Source { frames: Some([5, 9]), ..Source::from(folder.0.as_path()) };
+    assert_eq!(Sequence::open(part, |_| {}).unwrap().breaks, [None, Some(Break::Gap)]);
     write(&[1, 2, 3, 4]);
     fs::write(folder.0.join("manifest.json"), r#"{"cuts": [3]}"#).unwrap();
     let source = || Source { cuts: vec![2], ..Source::from(folder.0.as_path()) };
@@ -305,6 +325,17 @@ fn frames_keep_their_cameras() {
     assert_eq!(eyes(&[1.0, 2.0, 4.0], None), [1.0, 2.0, 4.0]);
     assert_eq!(eyes(&[1.0, 2.0, 3.0, 4.0], None), [1.0, 2.0, 4.0]);
     assert_eq!(eyes(&[1.0, 2.0, 4.0], Some([2, 9])), [2.0, 4.0]);
+    assert_eq!(eyes(&[7.0], None), [7.0; 3], "one for all");
+    // Cameras of a whole shot, of which a part was rendered again: which are meant has to be said.
+    let cameras: Vec<_> = (0..6).map(|x| camera(f64::from(x))).collect();
+    let open = |manifest: serde_json::Value| {
+        fs::write(folder.0.join("manifest.json"), manifest.to_string()).unwrap();
+        folder.open()
+    };
+    let error = open(serde_json::json!({ "cameras": cameras.clone() })).unwrap_err().to_string();
+    assert!(error.contains("has 6 cameras for 3 frames"), "{error}");
+    let sequence = open(serde_json::json!({ "cameras": cameras, "frames": [0, 1, 2, 3, 4, 5] })).unwrap();
+    assert_eq!((0..3).map(|index| sequence.camera(index).eye[0]).collect::<Vec<_>>(), [1.0, 2.0, 4.0]);
 }
 
 #[test]
@@ -434,4 +465,36 @@ fn what_goes_in_comes_out() {
     assert_eq!((found.get("R").unwrap()[3], found.get("crypto.r").unwrap()[3]), (0.5, 0.125));
     let names: Vec<_> = fs::read_dir(&out.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(names.len(), 2, "nothing half-written is left: {names:?}");
+}
+
+/// Depths below 0 are those before the camera; depths of 0 everywhere are none.
+#[test]
+fn depths_of_either_sign_are_read() {
+    let written = |factor: f32| {
+        let folder = Folder::new();
+        let mut image = plain(0);
+        image.channels[9].1.iter_mut().for_each(|z| *z *= factor);
+        folder.write(0, &image);
+        let sequence = folder.open().unwrap();
+        (sequence.has_surfaces(), sequence.blank_depth, sequence.read(0).unwrap().get(Layer::Depth).unwrap()[3])
+    };
+    let expected = sample(9, 0, 3);
+    assert_eq!(written(1.0), (true, false, expected));
+    assert_eq!(written(-1.0), (true, false, expected));
+    assert_eq!(written(0.0), (false, true, 1.0), "a wall stands in");
+}
+
+/// What is written is never what was read.
+#[test]
+fn no_output_is_a_frame() {
+    use crate::denoise_options::{Request, parse};
+    let folder = Folder::new();
+    (1..3).for_each(|number| write_exr(folder.0.join(format!("denoised_{number:04}.exr")), &plain(0)).unwrap());
+    let sequence = folder.open().unwrap();
+    let line = format!("{0} --out {0} --outputs denoised,lambda --format exr,png", folder.0.display());
+    let Ok(Request::Denoise(options)) = parse(line.split(' ').map(Into::into)) else { panic!("{line}") };
+    let paths = crate::output::paths(&options, &sequence, 0);
+    let names: Vec<_> = paths.iter().map(|path| path.file_name().unwrap().to_str().unwrap()).collect();
+    assert_eq!(names, ["denoised_0001.exr", "denoised_0001.png", "lambda_0001.exr", "lambda_0001.png"]);
+    assert!(sequence.files[0].path == paths[0], "that is what `denoise` refuses");
 }

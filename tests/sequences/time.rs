@@ -383,3 +383,47 @@ fn points_all_over_the_pixels_are_noticed() {
         assert_eq!(folder.open().unwrap().area, expected, "{scatter}");
     }
 }
+
+/// A few pixels of a lit wall whose albedo is black, or below it, as filters of pixels make it: they shine no more than the others.
+#[test]
+fn a_lone_black_albedo_does_not_shine() {
+    for black in [0.0, -0.01] {
+        let folder = Folder::new();
+        let is_black = |i: usize| i % 97 == 40;
+        for frame in 0..6 {
+            let mut image = wall(SIZE);
+            add(&mut image, Layer::Albedo, &[0.7; 3]);
+            for (name, samples) in &mut image.channels {
+                for (i, x) in samples.iter_mut().enumerate() {
+                    match name.as_str() {
+                        "albedo.R" | "albedo.G" | "albedo.B" if is_black(i) => *x = black,
+                        "R" | "G" | "B" => *x = 0.7 * (0.5 + random(i as u32, frame)),
+                        _ => {}
+                    }
+                }
+            }
+            folder.write(frame, &image);
+        }
+        for (number, frame) in denoised(&folder.open().unwrap(), true).0.iter().enumerate() {
+            let worst = frame.iter().map(|c| (c[0] / 0.7 - 1.0).abs()).fold(0.0, f32::max);
+            assert!(worst < 0.3, "albedo {black}, frame {number}: off by {worst}");
+        }
+    }
+}
+
+/// Motion that no file means, of a few pixels, costs only these.
+#[test]
+fn motion_out_of_all_bounds_is_borne() {
+    let folder = Folder::new();
+    for frame in 0..3 {
+        let mut image = wall(SIZE);
+        add(&mut image, Layer::Motion, &[0.0; 2]);
+        for (k, value) in [-1e30, 1e30, f32::NAN, f32::INFINITY, f32::NEG_INFINITY].into_iter().enumerate() {
+            let motion = image.channels.iter_mut().filter(|(name, _)| name.starts_with("motion"));
+            motion.for_each(|(_, samples)| samples[100 + 7 * k] = value);
+        }
+        folder.write(frame, &image);
+    }
+    let (frames, told) = denoised(&folder.open().unwrap(), true);
+    assert!(told.cuts.is_empty() && frames.iter().flatten().all(|c| (c[0] - 0.5).abs() < 1e-3));
+}
