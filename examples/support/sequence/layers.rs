@@ -208,10 +208,13 @@ pub fn find(names: &Names, view_layer: Option<&str>, image: &Channels) -> Result
     let is_composite = |index: usize| last_part(&fronts[index]) == COMPOSITE;
     let chosen = if let Some(wanted) = view_layer {
         let is_wanted = |front: &String| front.trim_end_matches('.') == wanted;
-        let known: Vec<&str> = fronts.iter().map(|front| front.trim_end_matches('.')).collect();
-        fronts.iter().position(is_wanted).ok_or_else(|| {
-            format!("there is no view layer {wanted}, which --layer asks for; the file has {}", known.join(", "))
-        })?
+        let named = fronts.iter().map(|front| front.trim_end_matches('.')).filter(|front| !front.is_empty());
+        let known: Vec<&str> = named.collect();
+        let known = if known.is_empty() { "none with a name".into() } else { known.join(", ") };
+        fronts
+            .iter()
+            .position(is_wanted)
+            .ok_or_else(|| format!("there is no view layer {wanted}, which --layer asks for; the file has {known}"))?
     } else {
         let all = [Layer::Color, Layer::Normal, Layer::Depth];
         let candidates = || (0..fronts.len()).filter(|&index| !is_composite(index));
