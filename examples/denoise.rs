@@ -19,6 +19,8 @@ mod film;
 mod fixed_seed;
 #[path = "support/gpu.rs"]
 mod gpu;
+#[path = "support/grid.rs"]
+mod grid;
 #[path = "support/inverted_motion.rs"]
 mod inverted_motion;
 #[path = "support/look_ahead.rs"]

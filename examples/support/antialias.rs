@@ -5,6 +5,7 @@
 //! pixel is the mean of what it shows in this and in two frames to each side, followed along the motion (Korein and Badler 1983), with the weights of a tent.
 //! What a frame brings from elsewhere is limited to the colours around the pixel (Karis 2014), and counts less the farther it had to be brought.
 
+use crate::grid::{around, bilinear};
 use crate::inverted_motion::inverted;
 use crate::parallel;
 use crate::sequence::Pixels;
@@ -91,7 +92,7 @@ impl Antialias {
                 return own;
             }
             let (mut low, mut high) = (own, own);
-            for j in around(self.size, i) {
+            for j in around(self.size, i, 1) {
                 low = std::array::from_fn(|c| low[c].min(now.image[j][c]));
                 high = std::array::from_fn(|c| high[c].max(now.image[j][c]));
             }
@@ -135,7 +136,7 @@ impl Antialias {
             let before = paths.last().map(|(_, places)| places);
             let places = parallel::map(nearest.len(), |i| {
                 let place = before.map_or([(i % self.size[0]) as f32, (i / self.size[0]) as f32], |places| places[i]);
-                let [x, y, _] = bilinear(self.size, place, |j| [nearest[j][0], nearest[j][1], 0.0]);
+                let [x, y] = bilinear(self.size, place, |j| nearest[j]);
                 [place[0] + x, place[1] + y]
             });
             paths.push((next, places));
@@ -149,7 +150,7 @@ impl Antialias {
         let depth = frame.pixels.get(Layer::Depth).unwrap_or_default();
         let (motion, _) = motion.as_chunks::<2>();
         let at = |i: usize| if depth[i] > 0.0 { depth[i] } else { f32::MAX };
-        let nearest = |i: usize| around(self.size, i).fold(i, |near, j| if at(j) < at(near) { j } else { near });
+        let nearest = |i: usize| around(self.size, i, 1).fold(i, |near, j| if at(j) < at(near) { j } else { near });
         parallel::map(motion.len(), |i| motion[nearest(i)].map(|x| if x.is_finite() { x } else { 0.0 }))
     }
 
@@ -163,7 +164,7 @@ impl Antialias {
         let (mut low, mut high, mut cosine) = ([f32::MAX; 3], [0.0_f32; 3], 1.0_f32);
         let normals = get(Layer::Normal);
         let normal = normals.map(|n| three(n, i));
-        for j in around(self.size, i) {
+        for j in around(self.size, i, 1) {
             (near, far) = (near.min(deep(j)), far.max(deep(j)));
             if let Some(albedo) = get(Layer::Albedo) {
                 let a = three(albedo, j).map(|x| if x.is_finite() { x.clamp(0.0, 1.0) } else { 1.0 });
@@ -179,22 +180,4 @@ impl Antialias {
         let bend = (1.0 - cosine - BEND[0]) / (BEND[1] - BEND[0]);
         (contrast / CONTRAST).max((far / near - 1.0) / STEP).max(bend).clamp(0.0, 1.0)
     }
-}
-
-/// A pixel and those beside it.
-fn around([width, height]: [usize; 2], i: usize) -> impl Iterator<Item = usize> {
-    let near = |at: usize, side: usize| at.saturating_sub(1)..=(at + 1).min(side - 1);
-    let columns = near(i % width, width);
-    near(i / width, height).flat_map(move |y| columns.clone().map(move |x| y * width + x))
-}
-
-/// Between four pixels.
-fn bilinear([width, height]: [usize; 2], [x, y]: [f32; 2], at: impl Fn(usize) -> [f32; 3]) -> [f32; 3] {
-    let inside = |v: f32, side: usize| v.clamp(0.0, (side - 1) as f32);
-    let (x, y) = (inside(x, width), inside(y, height));
-    let (left, top) = (x as usize, y as usize);
-    let (right, bottom) = ((left + 1).min(width - 1), (top + 1).min(height - 1));
-    let (u, v) = (x - left as f32, y - top as f32);
-    let [a, b, c, d] = [(left, top), (right, top), (left, bottom), (right, bottom)].map(|(x, y)| at(y * width + x));
-    std::array::from_fn(|k| (a[k] * (1.0 - u) + b[k] * u) * (1.0 - v) + (c[k] * (1.0 - u) + d[k] * u) * v)
 }

@@ -8,6 +8,7 @@
 use crate::camera::{Camera, Raster};
 use crate::film::Film;
 use crate::gpu::Gpu;
+use crate::grid::around;
 use crate::parallel;
 use crate::sequence::Pixels;
 use crate::sequence::layers::Layer;
@@ -155,15 +156,13 @@ fn settings() -> Settings {
 }
 
 /// A lone pixel that is lit although its albedo is black takes that of its neighbours: light over almost nothing would outshine them all.
-fn fill_lone_black(pixels: &Pixels, albedo: &mut [f32], [width, height]: [u32; 2]) {
+fn fill_lone_black(pixels: &Pixels, albedo: &mut [f32], size: [u32; 2]) {
     let given: Vec<[f32; 3]> = albedo.as_chunks::<3>().0.to_vec();
-    let [width, height] = [width, height].map(|side| side as usize);
+    let size = size.map(|side| side as usize);
     let lit =
         |i: usize| three(pixels, Layer::Color, i).iter().sum::<f32>() > three(pixels, Layer::Emission, i).iter().sum();
     for i in (0..given.len()).filter(|&i| given[i].iter().all(|&x| x < BLACK) && lit(i)) {
-        let near = |at: usize, side: usize| at.saturating_sub(1)..=(at + 1).min(side - 1);
-        let around: Vec<usize> =
-            near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x)).collect();
+        let around: Vec<usize> = around(size, i, 1).collect();
         let is_bright = |&&j: &&usize| is_same(pixels, i, pixels, j) && given[j].iter().any(|&x| x >= BLACK);
         let bright: Vec<[f32; 3]> = around.iter().filter(is_bright).map(|&j| given[j]).collect();
         // All but itself and one, at borders too.
@@ -183,9 +182,10 @@ pub fn noise(
     last: Option<&Pixels>,
     motion: &[f32],
     surfaces: &[usize],
-    [width, height]: [u32; 2],
+    size: [u32; 2],
 ) -> Vec<f32> {
-    let [width, height] = [width, height].map(|side| side as usize);
+    let size = size.map(|side| side as usize);
+    let [width, height] = size;
     let (now, _) = albedo.as_chunks::<3>();
     let is_same = |last: &Pixels, i: usize, j: usize| is_same(pixels, i, last, j);
     let is_off = |i: usize| {
@@ -197,10 +197,8 @@ pub fn noise(
         if a.iter().any(|x| !x.is_finite() || *x > 1.05) {
             return true;
         }
-        let near = |at: usize, side: usize| at.saturating_sub(1)..=(at + 1).min(side - 1);
-        let around = || near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x));
         let lit = |j: usize| now[j] != [0.0; 3] && is_same(pixels, i, j);
-        if a == [0.0; 3] && around().filter(|&j| lit(j)).count() >= LONELY {
+        if a == [0.0; 3] && around(size, i, 1).filter(|&j| lit(j)).count() >= LONELY {
             return true;
         }
         let Some(last) = last else { return false };
@@ -209,13 +207,12 @@ pub fn noise(
             return false;
         }
         let (mut low, mut high, mut count) = ([f32::MAX; 3], [f32::MIN; 3], 0);
-        for y in near(place[1] as usize, height) {
-            for x in near(place[0] as usize, width).filter(|x| is_same(last, i, y * width + x)) {
-                let there = three(last, Layer::Albedo, y * width + x);
-                low = std::array::from_fn(|c| low[c].min(there[c]));
-                high = std::array::from_fn(|c| high[c].max(there[c]));
-                count += 1;
-            }
+        let there = place[1] as usize * width + place[0] as usize;
+        for j in around(size, there, 1).filter(|&j| is_same(last, i, j)) {
+            let there = three(last, Layer::Albedo, j);
+            low = std::array::from_fn(|c| low[c].min(there[c]));
+            high = std::array::from_fn(|c| high[c].max(there[c]));
+            count += 1;
         }
         // 2 % of rounding and of sampling between pixels. Fewer than all may miss what lies between.
         count == 9 && (0..3).any(|c| a[c] < 0.98 * low[c] - 0.02 || a[c] > 1.02 * high[c] + 0.02)
@@ -227,14 +224,12 @@ pub fn noise(
         counts[surface][1] += u32::from(off);
     }
     // What is seen in splinters, as the rim of a sphere, is judged by what lies around it.
-    let around = |i: usize| {
-        let near = |at: usize, side: usize| at.saturating_sub(AROUND)..=(at + AROUND).min(side - 1);
-        let pixels = near(i / width, height).flat_map(|y| near(i % width, width).map(move |x| y * width + x));
-        let (count, off) = pixels.fold((0, 0), |(n, sum), j| (n + 1, sum + u32::from(off[j])));
+    let nearby = |i: usize| {
+        let (count, off) = around(size, i, AROUND).fold((0, 0), |(n, sum), j| (n + 1, sum + u32::from(off[j])));
         off as f32 / count as f32
     };
     let part = |i: usize| match counts[surfaces[i]] {
-        [size, _] if size < SPLINTER => around(i),
+        [size, _] if size < SPLINTER => nearby(i),
         [size, off] => off.saturating_sub(FEW) as f32 / size as f32,
     };
     (0..now.len()).map(part).collect()

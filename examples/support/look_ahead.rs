@@ -8,9 +8,8 @@ use crate::antialias::{Antialias, Held};
 use crate::blend_in_time::{Estimate, blend};
 use crate::film::Film;
 use crate::replay::{Exposed, Played, Player};
-use crate::sequence::layers::Layer;
+use crate::sequence::Sequence;
 use crate::sequence::motion::{self, Matches};
-use crate::sequence::{Break, Sequence};
 use crate::times::PassTimes;
 use asvgf::{FilterSettings, Gradient, Settings};
 use std::error::Error;
@@ -157,17 +156,4 @@ fn add(sums: &mut Vec<Matches>, exposed: &Exposed) {
         return;
     }
     sums.iter_mut().zip(&exposed.readings).for_each(|(sum, reading)| sum.add(*reading));
-}
-
-/// Whether anything tells where surfaces were: motion, or a camera that moves before them.
-pub fn follows(sequence: &Sequence) -> bool {
-    sequence.has(Layer::Motion) || (sequence.has_surfaces() && sequence.cameras.len() > 1)
-}
-
-/// Words for why a frame begins anew.
-pub fn reason(broken: Break) -> &'static str {
-    match broken {
-        Break::Gap => "frames are missing before it",
-        Break::Cut => "a cut",
-    }
 }

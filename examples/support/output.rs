@@ -91,20 +91,22 @@ fn write_denoised(
         let samples: Vec<f32> = denoised.iter().map(|pixel| pixel[c]).collect();
         sequence.window.place(&samples, window, 0.0)
     };
+    let alpha = alpha(&image, &names[0]);
+    let mut colors = names.clone();
+    colors.extend(alpha.as_ref().map(|(name, _)| name.clone()));
     let mut written = if options.keep_channels {
         let mut whole = file;
-        let colors: Vec<_> = names.iter().enumerate().map(|(c, name)| (name.clone(), place(c))).collect();
-        whole.replace(&colors);
+        let placed: Vec<_> = names.iter().enumerate().map(|(c, name)| (name.clone(), place(c))).collect();
+        whole.replace(&placed);
         whole
     } else {
         let mut channels: Vec<(String, Vec<f32>)> =
             ["R", "G", "B"].iter().enumerate().map(|(c, name)| ((*name).to_owned(), place(c))).collect();
-        channels.extend(alpha(&image, &names[0]).map(|samples| ("A".to_owned(), samples)));
+        channels.extend(alpha.map(|(_, samples)| ("A".to_owned(), samples)));
+        colors = channels.iter().map(|(name, _)| name.clone()).collect();
         file.with_channels(&names[0], &channels)
     };
     if let Some(sample_type) = options.sample_type {
-        let mut colors = if options.keep_channels { names } else { ["R", "G", "B"].map(str::to_owned).to_vec() };
-        colors.push("A".to_owned());
         written.set_sample_type(sample_type, &colors);
     }
     if let Some(compression) = options.compression {
@@ -114,8 +116,11 @@ fn write_denoised(
     Ok(())
 }
 
-/// The coverage beside a colour, by the name of its first channel.
-fn alpha(image: &Channels, color: &str) -> Option<Vec<f32>> {
+/// The coverage beside a colour, by the name of its first channel, and its own name.
+fn alpha(image: &Channels, color: &str) -> Option<(String, Vec<f32>)> {
     let front = color.rsplit_once('.').map_or(String::new(), |(front, _)| format!("{front}."));
-    ["A", "a"].iter().find_map(|name| image.get(&format!("{front}{name}")).map(<[f32]>::to_vec))
+    ["A", "a"].map(|name| format!("{front}{name}")).into_iter().find_map(|name| {
+        let samples = image.get(&name)?.to_vec();
+        Some((name, samples))
+    })
 }

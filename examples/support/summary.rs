@@ -1,9 +1,9 @@
 //! What `denoise` says: what it found, what it takes instead of the rest, and what seemed wrong.
 
-use crate::look_ahead::{self, Ahead, Denoised};
+use crate::look_ahead::{Ahead, Denoised};
 use crate::sequence::layers::Layer;
 use crate::sequence::pixels::Area;
-use crate::sequence::{Eye, Sequence};
+use crate::sequence::{Break, Eye, Sequence};
 use asvgf::{Gradient, Settings};
 
 /// Before the first frame.
@@ -32,7 +32,7 @@ pub fn before(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -
     for (index, broken) in sequence.breaks.iter().enumerate() {
         if let Some(broken) = broken {
             let digits = &sequence.files[index].digits;
-            out += &format!("note: frame {digits} begins anew: {}\n", look_ahead::reason(*broken));
+            out += &format!("note: frame {digits} begins anew: {}\n", reason(*broken));
         }
     }
     for note in notes(sequence) {
@@ -65,7 +65,7 @@ fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> Str
         if sequence.has(Layer::Albedo) { ", textures kept" } else { ", textures blurred where they are faint" };
     let followed = if sequence.has(Layer::Motion) {
         "surfaces followed"
-    } else if look_ahead::follows(sequence) {
+    } else if follows(sequence) {
         "surfaces followed by the camera"
     } else {
         "nothing taken to move"
@@ -82,6 +82,19 @@ fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> Str
         None => "past",
     };
     format!("{edges}{albedo}; {followed}; {alpha}; {future}")
+}
+
+/// Whether anything tells where surfaces were: motion, or a camera that moves before them.
+fn follows(sequence: &Sequence) -> bool {
+    sequence.has(Layer::Motion) || (sequence.has_surfaces() && sequence.cameras.len() > 1)
+}
+
+/// Words for why a frame begins anew.
+fn reason(broken: Break) -> &'static str {
+    match broken {
+        Break::Gap => "frames are missing before it",
+        Break::Cut => "a cut",
+    }
 }
 
 /// What is taken where nothing was said, and what that may cost.

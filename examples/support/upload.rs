@@ -1,6 +1,7 @@
 //! A frame's layers as the denoiser takes them, on the GPU.
 
 use crate::gpu::Gpu;
+use crate::grid::around;
 use crate::sequence::layers::Layer;
 use crate::sequence::{Pixels, Sequence};
 use asvgf::wgpu::{self, TextureFormat, TextureUsages, TextureView};
@@ -39,7 +40,8 @@ impl Views {
 
 /// The depths and albedos of what is to be filtered. A light that reflects nothing is not: its zeros would darken what lies beside
 /// it. What glows and is lit although its albedo is 0, as a mirror is where that is the diffuse one, is filtered undivided.
-fn surfaces(pixels: &Pixels, [width, height]: [u32; 2]) -> (Vec<f32>, Option<Vec<f32>>) {
+fn surfaces(pixels: &Pixels, size: [u32; 2]) -> (Vec<f32>, Option<Vec<f32>>) {
+    let size = size.map(|side| side as usize);
     let mut depths = pixels.get(Layer::Depth).unwrap_or_default().to_vec();
     let layers = (pixels.get(Layer::Albedo), pixels.get(Layer::Emission), pixels.get(Layer::Color));
     let (Some(albedo), Some(emission), Some(color)) = layers else {
@@ -50,10 +52,8 @@ fn surfaces(pixels: &Pixels, [width, height]: [u32; 2]) -> (Vec<f32>, Option<Vec
     let sum = |image: &[f32], i: usize| image[3 * i..3 * i + 3].iter().sum::<f32>();
     for i in (0..depths.len()).filter(|&i| black(i) && sum(emission, i) != 0.0) {
         // Of pixels like it around, as one path alone may have found nothing.
-        let (x, y) = ((i as u32 % width) as i32, (i as u32 / width) as i32);
-        let near = |at: i32, size: u32| (at - AROUND).max(0)..=(at + AROUND).min(size as i32 - 1);
         let (mut light, mut emitted) = (0.0, 0.0);
-        for j in near(y, height).flat_map(|y| near(x, width).map(move |x| (y * width as i32 + x) as usize)) {
+        for j in around(size, i, AROUND) {
             if black(j) {
                 light += (sum(color, j) - sum(emission, j)).max(0.0);
                 emitted += sum(emission, j);
@@ -69,7 +69,7 @@ fn surfaces(pixels: &Pixels, [width, height]: [u32; 2]) -> (Vec<f32>, Option<Vec
 }
 
 /// Pixels to each side.
-const AROUND: i32 = 2;
+const AROUND: usize = 2;
 
 /// Part of the emission beyond which what comes with it is light, not rounding.
 const REFLECTED: f32 = 0.02;

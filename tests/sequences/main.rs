@@ -22,6 +22,8 @@ mod film;
 mod fixed_seed;
 #[path = "../../examples/support/gpu.rs"]
 mod gpu;
+#[path = "../../examples/support/grid.rs"]
+mod grid;
 #[path = "../../examples/support/inverted_motion.rs"]
 mod inverted_motion;
 #[path = "../../examples/support/look_ahead.rs"]

@@ -150,6 +150,7 @@ struct Frame {
     places: Places,
     /// What its attributes tell of the camera.
     described: Option<Camera>,
+    of_blender: bool,
 }
 
 impl Frame {
@@ -219,6 +220,7 @@ impl Sequence {
         let mut display = None;
         // Depths above and below 0.
         let mut signs = [0_usize; 2];
+        let mut of_blender = false;
         for index in 0..count {
             let frame = sequence.look_at(index, display)?;
             sequence.window = if index == 0 { frame.window } else { sequence.window.union(frame.window) };
@@ -238,12 +240,16 @@ impl Sequence {
             if !given {
                 seen.push(sequence.see(&frame));
             }
+            of_blender |= frame.of_blender;
             looked(count as u32);
         }
         if sequence.has(Layer::Depth) && signs[0] == 0 {
             sequence.blank_depth = signs[1] == 0;
-            sequence.depth_sign = -1.0;
-            sequence.layers.retain(|layer| *layer != Layer::Depth || signs[1] > 0);
+            if sequence.blank_depth {
+                sequence.layers.retain(|layer| *layer != Layer::Depth);
+            } else {
+                sequence.depth_sign = -1.0;
+            }
         }
         sequence.size = sequence.window.size;
         let (display, aspect) = display.unwrap_or((sequence.window, 1.0));
@@ -255,7 +261,7 @@ impl Sequence {
             sequence.normals_of_view = sequence.space_of_normals()?;
         }
         if sequence.has(Layer::Depth) && sequence.has(Layer::Normal) {
-            sequence.area = pixels::area(&sequence.file(0)?, &sequence.read(0)?, sequence.size);
+            sequence.area = pixels::area(of_blender, &sequence.read(0)?, sequence.size);
         }
         Ok(sequence)
     }
@@ -369,7 +375,8 @@ impl Sequence {
         let places = self.places(path, &image)?;
         let (window, display, aspect) = (file.data_window(), file.display_window(), file.pixel_aspect());
         let described = described_camera::of(&file, raster(window, display, aspect));
-        Ok(Frame { window, display, aspect, image, places, described })
+        let of_blender = pixels::is_of_blender(&file);
+        Ok(Frame { window, display, aspect, image, places, described, of_blender })
     }
 
     /// Reads a frame whole and compares it with the first.

@@ -26,12 +26,16 @@ const ENOUGH: usize = 50;
 const SLANTED: f64 = 1e-3;
 
 /// What the first frame tells.
-pub fn area(file: &ExrFile, pixels: &Pixels, size: [u32; 2]) -> Option<Area> {
+pub fn area(of_blender: bool, pixels: &Pixels, size: [u32; 2]) -> Option<Area> {
     if scattered(pixels, size) >= SCATTERED {
         return Some(Area::Scattered);
     }
-    let is_text = |name| matches!(file.attribute(name), Some(Attribute::Text(_)));
-    is_text("BlenderMultiChannel").then_some(Area::Blender)
+    of_blender.then_some(Area::Blender)
+}
+
+/// Whether Blender wrote a file.
+pub fn is_of_blender(file: &ExrFile) -> bool {
+    matches!(file.attribute("BlenderMultiChannel"), Some(Attribute::Text(_)))
 }
 
 /// The median over three pixels in a row of one plane: how much the second difference of 1/z, which is 0 on a grid, is in parts of the first.
