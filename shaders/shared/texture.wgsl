@@ -1,6 +1,6 @@
 #define_import_path asvgf::texture
 
-#import asvgf::scene::{scene, texels, attributes, load_material, geometry_word, TextureUse}
+#import asvgf::scene::{scene, texels, attributes, load_material, geometry_word, TextureUse, CULLED}
 
 // Images lie in one storage buffer, as no GPU is sure to have arrays of differently sized textures.
 
@@ -59,13 +59,35 @@ fn exists(image: TextureUse) -> bool {
     return (image.mode & 0x80000000u) != 0u;
 }
 
-// Whether an alpha mask cuts this point of a triangle away.
-fn is_hole(row: u32, barycentrics: vec2<f32>) -> bool {
+#ifdef VERTEX_COLORS
+// Colour and opacity, interpolated between the vertices.
+fn vertex_color(row: u32, barycentrics: vec2<f32>) -> vec4<f32> {
+    let first = row * scene.attribute_stride + scene.color_first;
+    let a = corner_color(first);
+    let b = corner_color(first + 2u);
+    let c = corner_color(first + 4u);
+    return a + barycentrics.x * (b - a) + barycentrics.y * (c - a);
+}
+
+fn corner_color(first: u32) -> vec4<f32> {
+    return vec4(unpack2x16unorm(attributes[first]), unpack2x16unorm(attributes[first + 1u]));
+}
+#endif
+
+// Whether a ray goes through this point of a triangle, which it meets from the back or from the front: because an alpha mask cuts
+// the point away, or because the material has no back faces.
+fn is_hole(row: u32, barycentrics: vec2<f32>, back: bool) -> bool {
     let material = load_material(geometry_word(row * 3u).w);
+    if back && (material.flags & CULLED) != 0u {
+        return true;
+    }
     if material.cutoff <= 0.0 {
         return false;
     }
     var opacity = material.base_color.w;
+#ifdef VERTEX_COLORS
+    opacity *= vertex_color(row, barycentrics).w;
+#endif
 #ifdef TEXTURES
     let image = material.base_color_texture;
     if exists(image) {

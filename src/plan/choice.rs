@@ -32,6 +32,11 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
             ["a material has an image", "no material has an image: no coordinates, no look-up"],
         ),
         (ShadingNormals, traits.shading_normals, ["a mesh has normals", "no mesh has: cross products of the edges do"]),
+        (
+            VertexColors,
+            traits.vertex_colors,
+            ["a mesh has colours at its vertices", "no mesh has colours at its vertices"],
+        ),
         (Specular, traits.specular, ["a material is not purely Lambertian", "all are Lambertian: no GGX lobe"]),
         (AlphaMask, traits.alpha_mask, ["a material has holes", "no material has holes: any hit will do for a shadow"]),
         (FewTriangles, traits.few_triangles, FEW_TRIANGLES),

@@ -27,9 +27,11 @@ features! {
     Textures,
     /// Interpolated normals.
     ShadingNormals,
+    /// Colours at the vertices.
+    VertexColors,
     /// GGX lobe.
     Specular,
-    /// Opacity test during traversal.
+    /// Test of the opacity and of the facing during traversal.
     AlphaMask,
     /// Every triangle is tested instead of a tree.
     FewTriangles,

@@ -9,9 +9,11 @@ pub struct Traits {
     pub textures: bool,
     /// Meshes have interpolated normals.
     pub shading_normals: bool,
+    /// Meshes have colours at their vertices.
+    pub vertex_colors: bool,
     /// Some surface is not purely Lambertian.
     pub specular: bool,
-    /// Some material is cut out by its opacity.
+    /// Some material is cut out by its opacity, or has no back faces.
     pub alpha_mask: bool,
     /// Triangles emit light.
     pub emitters: bool,

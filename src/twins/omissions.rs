@@ -13,6 +13,7 @@ const ALL: Traits = Traits {
     instanced: true,
     textures: true,
     shading_normals: true,
+    vertex_colors: true,
     specular: true,
     alpha_mask: true,
     emitters: true,
@@ -84,12 +85,13 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     ][..];
     let images = &["exists", "sample_texture", "srgb_to_linear", "texel", "texture_coordinates", "wrap"][..];
     let sky = &["environment_density", "environment_texel", "texel_radiance"][..];
-    let cases: [(Traits, &[&str]); 8] = [
+    let cases: [(Traits, &[&str]); 9] = [
         (Traits { instanced: false, ..ALL }, moving),
         (Traits { textures: false, ..ALL }, images),
         (Traits { shading_normals: false, ..ALL }, &["octahedral", "transform_normal", "unpack_octahedral"]),
+        (Traits { vertex_colors: false, ..ALL }, &["vertex_color", "corner_color"]),
         (Traits { specular: false, ..ALL }, &["distribution", "fresnel", "smith", "specular_share"]),
-        (Traits { alpha_mask: false, ..ALL }, &["is_hole"]),
+        (Traits { alpha_mask: false, ..ALL }, &["is_hole", "meets_back"]),
         (Traits { emitters: false, ..ALL }, &["emitter_density"]),
         (Traits { punctual_lights: false, ..ALL }, &[]),
         (Traits { environment: false, ..ALL }, sky),

@@ -16,7 +16,7 @@ fn a_triangle_gets_the_default_material_of_gltf() {
     assert!(mesh.normals.is_empty() && mesh.uvs[0].is_empty());
     let material = &loaded.scene.materials[mesh.material];
     assert_eq!(material.base_color, [1.0; 4]);
-    assert_eq!((material.metallic, material.roughness, material.specular), (1.0, 1.0, 0.04));
+    assert_eq!((material.metallic, material.roughness, material.specular), (1.0, 1.0, [0.04; 3]));
     assert_eq!(area(&loaded), 0.5);
 }
 

@@ -24,7 +24,7 @@ fn every_field_of_a_material() {
     let material = &loaded.scene.materials[0];
     assert_eq!(material.name, "lamp");
     assert_eq!(material.base_color, [0.1, 0.2, 0.3, 0.4]);
-    assert_eq!((material.metallic, material.roughness, material.specular), (0.6, 0.7, 0.04));
+    assert_eq!((material.metallic, material.roughness, material.specular), (0.6, 0.7, [0.04; 3]));
     assert_eq!(material.emissive, [8.0, 4.0, 2.0]);
     assert!(material.double_sided && material.unlit);
     assert_eq!(material.alpha, Alpha::Mask(0.5));

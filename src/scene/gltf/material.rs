@@ -10,7 +10,7 @@ use crate::scene::description::{Alpha, Material, Scene};
 use crate::scene::load::report::{Fault, Report};
 
 /// Normal-incidence reflectance of the dielectrics of glTF 2.0 (an index of refraction of 1.5).
-const SPECULAR: f32 = 0.04;
+const SPECULAR: [f32; 3] = [0.04; 3];
 
 /// Opacity below which a blended surface is taken to be absent.
 const BLEND_CUTOFF: f32 = 0.5;
@@ -66,6 +66,7 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
         double_sided: source.double_sided,
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
         specular: SPECULAR,
+        ..Material::default()
     })
 }
 
