@@ -3,6 +3,8 @@
 pub(crate) mod decode;
 pub(crate) mod files;
 pub(crate) mod folder;
+mod ktx2;
+pub(crate) mod normals;
 pub(crate) mod report;
 
 use std::collections::BTreeMap;

@@ -89,7 +89,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         (Traits { instanced: false, ..ALL }, moving),
         (Traits { textures: false, ..ALL }, images),
         (Traits { shading_normals: false, ..ALL }, &["octahedral", "transform_normal", "unpack_octahedral"]),
-        (Traits { vertex_colors: false, ..ALL }, &["vertex_color", "corner_color"]),
+        (Traits { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
         (Traits { specular: false, ..ALL }, &["distribution", "fresnel", "smith", "specular_share"]),
         (Traits { alpha_mask: false, ..ALL }, &["is_hole", "meets_back"]),
         (Traits { emitters: false, ..ALL }, &["emitter_density"]),

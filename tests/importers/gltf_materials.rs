@@ -161,12 +161,11 @@ fn images_that_cannot_be_read_are_named() {
         &loaded,
         &[
             ("images[0]", "absent.png"),
-            ("images[1]", "old.ktx2\" is a KTX file"),
+            ("images[1]", "old.ktx2\" is not a sound KTX2 file"),
             ("images[2]", "broken.png\" cannot be decoded"),
             ("images[3]", "not within the folder"),
             ("images[4]", "neither"),
             ("images[5]", "unused.jpg"),
-            ("textures[5]", "no image"),
             ("materials[5]", "normal maps"),
         ],
     );

@@ -7,7 +7,7 @@ use crate::scene::description::{Scene, SceneError, Warning};
 use crate::scene::load::Loaded;
 
 /// What is wrong with an element. [`Report::error`] adds the file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Fault {
     pub element: String,
     pub reason: String,
@@ -20,15 +20,20 @@ impl Fault {
 }
 
 /// Collects the warnings about a file and completes its errors.
+///
+/// A file is refused only where nothing of it can be drawn. An element that is broken costs itself and one warning, which
+/// names the element and its replacement.
 pub(crate) struct Report {
     file: String,
     warnings: Vec<Warning>,
     said: HashSet<String>,
+    /// The first part of the model that was lost: the reason to refuse a file of which nothing else can be drawn.
+    lost: Option<Fault>,
 }
 
 impl Report {
     pub fn new(file: &Path) -> Self {
-        Self { file: file.display().to_string(), warnings: Vec::new(), said: HashSet::new() }
+        Self { file: file.display().to_string(), warnings: Vec::new(), said: HashSet::new(), lost: None }
     }
 
     pub fn warn(&mut self, element: impl Into<String>, reason: impl Into<String>) {
@@ -41,6 +46,27 @@ impl Report {
         if self.said.insert(reason.clone()) {
             self.warn(element, reason);
         }
+    }
+
+    /// Takes the last warning back, because a later one says more about the same element.
+    #[cfg(feature = "gltf")]
+    pub fn withdraw(&mut self) {
+        self.warnings.pop();
+    }
+
+    /// Warns that a broken element is replaced. A fault that several elements share is named once.
+    #[cfg(feature = "gltf")]
+    pub fn replace(&mut self, fault: Fault, instead: &str) {
+        if self.said.insert(format!("{}: {}", fault.element, fault.reason)) {
+            self.warn(fault.element, format!("{}; {instead}", fault.reason));
+        }
+    }
+
+    /// Warns that a part of the model is not drawn.
+    #[cfg(feature = "gltf")]
+    pub fn lose(&mut self, fault: Fault) {
+        self.lost.get_or_insert_with(|| fault.clone());
+        self.replace(fault, "it is not drawn");
     }
 
     /// `value` brought into 0…1, with a warning where that changes it visibly.
@@ -71,6 +97,9 @@ impl Report {
     pub fn finish(mut self, scene: Scene) -> Result<Loaded, SceneError> {
         scene.validate().map_err(|error| self.error(Fault::new(error.element, error.reason)))?;
         if scene.triangle_count() == 0 {
+            if let Some(lost) = self.lost.take() {
+                return Err(self.error(lost));
+            }
             self.warn("file", "nothing in it can be drawn: it places no triangles");
         }
         Ok(Loaded { scene, warnings: self.warnings })
