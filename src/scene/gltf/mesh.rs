@@ -148,16 +148,14 @@ impl<'a> Meshes<'a> {
             return Ok(assemble(mode, &(0..count as u32).collect::<Vec<_>>()));
         };
         let corners: Vec<u32> = (0..count).map(|index| indices.integer(index)).collect();
-        let mut triangles = assemble(mode, &corners);
-        let Some(at) = corners.iter().position(|&corner| corner as usize >= vertices) else { return Ok(triangles) };
-        let fault = Fault::new(user, format!("index {at} is {}, but there are only {vertices} vertices", corners[at]));
-        let all = triangles.len();
-        triangles.retain(|corners| corners.iter().all(|&corner| (corner as usize) < vertices));
-        if triangles.is_empty() {
-            return Err(fault);
+        match corners.iter().position(|&corner| corner as usize >= vertices) {
+            // What the other indices mean is not known then: a wrong buffer is likelier than one wrong number.
+            Some(at) => {
+                let reason = format!("index {at} is {}, but there are only {vertices} vertices", corners[at]);
+                Err(Fault::new(user, reason))
+            }
+            None => Ok(assemble(mode, &corners)),
         }
-        report.replace(fault, &format!("{} of {all} triangles are not drawn", all - triangles.len()));
-        Ok(triangles)
     }
 
     fn material(
