@@ -277,6 +277,14 @@ pub struct Environment {
     pub radiance: Vec<[f32; 3]>,
 }
 
+impl Scene {
+    /// Takes the back faces of all materials that are not [`double_sided`](Material::double_sided) away, as rasterizers do: for
+    /// models whose outlines are hulls turned inside out, and for rooms that are looked into from outside.
+    pub fn cull_back_faces(&mut self) {
+        self.materials.iter_mut().for_each(|material| material.culled = !material.double_sided);
+    }
+}
+
 impl Environment {
     /// The same radiance from everywhere.
     pub fn uniform(radiance: [f32; 3]) -> Self {

@@ -47,7 +47,7 @@ fn indices_that_lead_nowhere() {
         }
     };
     mended(textured(json!({"source": 3})), "textures[0].source", "index 3");
-    mended(textured(json!({"sampler": 0})), "textures[0]", "names no image");
+    mended(textured(json!({"sampler": 0})), "textures[0].source", "names no image");
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn nodes_materials_and_lights_that_are_wrong() {
     mended(set("/materials", json!([{"alphaMode": "MASK", "alphaCutoff": 1e300}])), "materials[0].alphaCutoff", "0.5");
     let ior = json!([{"extensions": {"KHR_materials_ior": {"ior": 0.5}}}]);
     mended(set("/materials", ior), "materials[0].KHR_materials_ior.ior", "1.5 is used");
-    mended(set("/cameras", json!([{"type": "perspective"}])), "cameras[0]", "no perspective");
+    mended(set("/cameras", json!([{"type": "perspective"}])), "cameras[0].perspective", "is not there");
     mended(set("/cameras", json!([{"type": "fisheye"}])), "cameras[0]", "neither");
     let light = json!({"KHR_lights_punctual": {"lights": [{"type": "laser"}]}});
     mended(set("/extensions", light), "lights[0].type", "directional");

@@ -51,7 +51,7 @@ fn a_skin_places_its_mesh_and_the_node_does_not() {
     assert_eq!(drawn(&gltf, &[]).1, [[1.5, -0.5, 0.0], [2.5, 0.5, 0.0]]);
     // The inverse bind matrix takes the joint's own place out.
     let mut matrix = [0.0_f32; 16];
-    [0, 5, 10, 15].map(|diagonal| matrix[diagonal] = 1.0);
+    [0, 5, 10, 15].into_iter().for_each(|diagonal| matrix[diagonal] = 1.0);
     matrix[12] = -4.0;
     let inverse = gltf.accessor(F32, "MAT4", 1, &le(matrix.iter().map(|x| x.to_le_bytes())));
     gltf.json["skins"][0]["inverseBindMatrices"] = json!(inverse);

@@ -17,4 +17,5 @@ mod images;
 mod memory;
 mod obj;
 mod paths;
+mod properties;
 mod scene;

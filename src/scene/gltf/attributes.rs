@@ -138,8 +138,9 @@ pub(super) fn warn_unread(primitive: &Primitive, element: &str, report: &mut Rep
 /// Warns where the textures of a material have no coordinates.
 pub(super) fn warn_missing_uvs(material: &Material, mesh: &Mesh, element: &str, report: &mut Report) {
     for (_, texture) in material.textures() {
-        if mesh.uvs.get(texture.uv_set).is_none_or(|uvs| uvs.is_empty()) {
-            let set = texture.uv_set;
+        let set = texture.uv_set;
+        let removed = report.is_removed(&format!("{element}.attributes.TEXCOORD_{set}"));
+        if mesh.uvs.get(set).is_none_or(|uvs| uvs.is_empty()) && !removed {
             let reason = format!("its material uses TEXCOORD_{set}, which it does not have; 0 is used");
             report.warn(element, reason);
             return;

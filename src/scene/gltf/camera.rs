@@ -13,7 +13,7 @@ use crate::scene::load::report::Report;
 pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Vec<Option<usize>> {
     let mut places = Vec::new();
     for (index, camera) in source.root.cameras.iter().enumerate() {
-        let element = format!("cameras[{index}]");
+        let mut element = format!("cameras[{index}]");
         let fault = match (&camera.type_, &camera.perspective) {
             (Checked::Valid(Type::Perspective), Some(perspective))
                 if (f32::MIN_POSITIVE..PI).contains(&perspective.yfov) =>
@@ -25,7 +25,10 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
             (Checked::Valid(Type::Perspective), Some(perspective)) => {
                 format!("yfov {} is not between 0 and π", perspective.yfov)
             }
-            (Checked::Valid(Type::Perspective), None) => "has no perspective".into(),
+            (Checked::Valid(Type::Perspective), None) => {
+                element.push_str(".perspective");
+                "is not there".into()
+            }
             (Checked::Valid(Type::Orthographic), _) => "orthographic cameras are not read".into(),
             (Checked::Invalid, _) => "its type is neither perspective nor orthographic".into(),
         };

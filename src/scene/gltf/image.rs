@@ -99,7 +99,7 @@ impl<'a> Images<'a> {
         let mut candidates = candidates.into_iter().flatten().peekable();
         let user = format!("textures[{index}]");
         if candidates.peek().is_none() {
-            report.warn_once(&user, format!("texture {index} names no image that is read; it is left out"));
+            report.warn(format!("{user}.source"), "names no image that is read; the texture is left out");
         }
         candidates.find_map(|source| self.listed(source, &user, report))
     }
@@ -116,7 +116,10 @@ impl<'a> Images<'a> {
         }
         let decoded = self.decode(image, index);
         let known = decoded.map_err(|reason| {
-            report.warn(format!("images[{index}]"), format!("{reason}; materials are drawn without it"));
+            let element = format!("images[{index}]");
+            if !["bufferView", "uri"].iter().any(|member| report.is_removed(&format!("{element}.{member}"))) {
+                report.warn(element, format!("{reason}; materials are drawn without it"));
+            }
         });
         let known = known.ok().flatten();
         self.known.insert(index, known);

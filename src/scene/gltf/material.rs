@@ -100,15 +100,15 @@ fn specular(
 ) -> Material {
     let extensions = source.extensions.as_ref();
     let ior = extensions.and_then(|extensions| extensions.ior.as_ref()).map_or(IOR, |extension| extension.ior.0);
-    // 0 stands for infinity: a full reflectance. Between 0 and 1 there are no dielectrics in air.
-    let ior = if ior == 0.0 { f32::INFINITY } else { ior };
-    let base = if ior.is_infinite() { 1.0 } else { reflectance(ior) };
-    let base = if ior >= 1.0 {
-        base
-    } else {
-        let reason = format!("{ior} is neither 0 nor at least 1; {IOR} is used");
-        report.warn(format!("{element}.KHR_materials_ior.ior"), reason);
-        reflectance(IOR)
+    let base = match ior {
+        // 0 stands for infinity.
+        0.0 => 1.0,
+        ior if ior >= 1.0 && ior.is_finite() => reflectance(ior),
+        ior => {
+            let reason = format!("{ior} is neither 0 nor finite and at least 1; {IOR} is used");
+            report.warn(format!("{element}.KHR_materials_ior.ior"), reason);
+            reflectance(IOR)
+        }
     };
     let Some(extension) = extensions.and_then(|extensions| extensions.specular.as_ref()) else {
         return Material { specular: [base; 3], ..material };

@@ -47,7 +47,7 @@ fn mend_list<T: DeserializeOwned>(root: &mut Value, name: &str, report: &mut Rep
     for (index, element) in list.iter_mut().enumerate() {
         let place = format!("{name}[{index}]");
         if let Err(fault) = read::<T>(element, &place, report) {
-            report.replace(Fault::new(place, fault.reason), "it is left out");
+            report.remove(&place, &fault.reason);
             *element = empty(name);
         }
     }
@@ -73,7 +73,7 @@ fn read<T: DeserializeOwned>(element: &mut Value, place: &str, report: &mut Repo
         if !remove(element, &path) {
             return Err(fault());
         }
-        report.warn(name, format!("{reason}; it is read as if it were not there"));
+        report.remove(&name, &reason);
         removed = Some(path);
     }
     Err(Fault::new(place, format!("more than {MOST} of its values cannot be read")))
