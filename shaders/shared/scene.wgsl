@@ -66,7 +66,7 @@ struct TextureUse {
 struct Material {
     base_color: vec4<f32>,
     emissive: vec3<f32>,
-    // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: back faces do not exist.
+    // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: back faces do not exist. Bit 3: covers as much as its opacity.
     flags: u32,
     metallic: f32,
     roughness: f32,
@@ -88,6 +88,7 @@ struct Material {
 const TWO_SIDED_EMITTER: u32 = 1u;
 const UNLIT: u32 = 2u;
 const CULLED: u32 = 4u;
+const BLENDED: u32 = 8u;
 
 struct Light {
     // See light.wgsl.

@@ -142,7 +142,11 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
             var closer = t.x < hit.distance;
 #ifdef ALPHA_MASK
             if closer {
-                closer = !is_hole(row, t.yz, meets_back(row, direction));
+                #ifdef INSTANCED
+                closer = !is_hole(row, instance, t.yz, meets_back(row, direction));
+#else
+                closer = !is_hole(row, 0u, t.yz, meets_back(row, direction));
+#endif
             }
 #endif
             if closer {

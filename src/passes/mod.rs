@@ -164,6 +164,7 @@ const GEOMETRY: &[Feature] = &[
     Feature::ShadingNormals,
     Feature::VertexColors,
     Feature::AlphaMask,
+    Feature::AlphaBlend,
     Feature::FewTriangles,
 ];
 

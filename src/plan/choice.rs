@@ -39,6 +39,7 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
         ),
         (Specular, traits.specular, ["a material is not purely Lambertian", "all are Lambertian: no GGX lobe"]),
         (AlphaMask, traits.alpha_mask, ["a material has holes", "no material has holes: any hit will do for a shadow"]),
+        (AlphaBlend, traits.alpha_blend, ["a material is blended", "no material is blended"]),
         (FewTriangles, traits.few_triangles, FEW_TRIANGLES),
         (Lights, lights, ["there is light to sample", "nothing emits: no light is sampled"]),
         (Emitters, traits.emitters, ["triangles emit", "no triangle emits"]),

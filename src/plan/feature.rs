@@ -33,6 +33,8 @@ features! {
     Specular,
     /// Test of the opacity and of the facing during traversal.
     AlphaMask,
+    /// Surfaces are met as often as their opacity says.
+    AlphaBlend,
     /// Every triangle is tested instead of a tree.
     FewTriangles,
     /// Any light to sample.

@@ -15,6 +15,8 @@ pub struct Traits {
     pub specular: bool,
     /// Some material is cut out by its opacity, or has no back faces.
     pub alpha_mask: bool,
+    /// Some material covers as much as its opacity.
+    pub alpha_blend: bool,
     /// Triangles emit light.
     pub emitters: bool,
     /// There are lights without area.
@@ -39,6 +41,7 @@ impl Traits {
             textures: true,
             specular: true,
             alpha_mask: true,
+            alpha_blend: true,
             emitters: true,
             punctual_lights: true,
             unlit: true,

@@ -135,6 +135,9 @@ pub enum Alpha {
     Opaque,
     /// Points whose opacity is below the cutoff do not exist.
     Mask(f32),
+    /// The surface covers as much of what lies behind as its opacity: a ray meets it with that probability. Noise is higher
+    /// there, and light is filtered together with the colours.
+    Blend,
 }
 
 /// A use of an [`Image`] by a material.

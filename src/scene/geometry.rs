@@ -207,6 +207,7 @@ pub(super) fn traits(scene: &Scene, layout: Layout) -> Traits {
         shading_normals: layout.normals,
         vertex_colors: layout.color.is_some(),
         specular: used().any(|m| !m.unlit && (m.specular != [0.0; 3] || m.metallic > 0.0)),
+        alpha_blend: used().any(|m| m.alpha == Alpha::Blend),
         alpha_mask: used().any(|m| m.alpha != Alpha::Opaque || m.culled),
         emitters: used().any(is_emitter),
         unlit: used().any(|m| m.unlit),

@@ -33,12 +33,17 @@ pub(super) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &
         .map(|(m, factor)| GpuMaterial {
             base_color: m.base_color,
             emissive: [0, 1, 2].map(|c| m.emissive[c] * factor[c]),
-            flags: u32::from(m.double_sided) | u32::from(m.unlit) << 1 | u32::from(m.culled) << 2,
+            flags: u32::from(m.double_sided)
+                | u32::from(m.unlit) << 1
+                | u32::from(m.culled) << 2
+                | u32::from(m.alpha == Alpha::Blend) << 3,
             metallic: m.metallic,
             roughness: m.roughness,
             cutoff: match m.alpha {
                 Alpha::Opaque => 0.0,
                 Alpha::Mask(cutoff) => cutoff,
+                // Not 0, which skips the test.
+                Alpha::Blend => 0.5,
             },
             specular_edge: m.specular_edge,
             specular: m.specular,

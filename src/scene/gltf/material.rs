@@ -13,9 +13,6 @@ use crate::scene::load::report::Report;
 /// Index of refraction of the dielectrics of glTF 2.0, unless KHR_materials_ior gives another.
 const IOR: f32 = 1.5;
 
-/// Opacity below which a blended surface is taken to be absent.
-const BLEND_CUTOFF: f32 = 0.5;
-
 /// Reads all materials, which keep their indices, and the images that they use.
 pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) {
     let mut images = Images::new(source);
@@ -141,10 +138,7 @@ fn alpha(source: &MaterialSource, element: &str, report: &mut Report) -> Alpha {
             }
             Alpha::Mask(cutoff.max(0.0))
         }
-        Checked::Valid(AlphaMode::Blend) => {
-            report.warn(element, format!("alphaMode BLEND is drawn as MASK with a cutoff of {BLEND_CUTOFF}"));
-            Alpha::Mask(BLEND_CUTOFF)
-        }
+        Checked::Valid(AlphaMode::Blend) => Alpha::Blend,
         Checked::Invalid => {
             let reason = "is none of OPAQUE, MASK and BLEND; OPAQUE is used";
             report.warn(format!("{element}.alphaMode"), reason);

@@ -148,3 +148,68 @@ fn back_faces_of_a_culled_material_are_not_there() {
         }
     }
 }
+
+/// A camera above a sheet of this opacity above a floor, under a white sky.
+fn behind_a_sheet(sheet: Material, floor: Material, moves: bool) -> Scene {
+    let mut scene = under_the_sky(floor);
+    scene.materials.push(sheet);
+    scene.meshes.push(quad([-9.0, 0.5, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 1));
+    scene.nodes.push(Node { meshes: vec![1], movable: moves, ..Default::default() });
+    scene
+}
+
+#[test]
+fn a_blended_surface_covers_as_much_as_its_opacity() {
+    let sheet =
+        |opacity: f32| Material { alpha: Alpha::Blend, base_color: [0.8, 0.0, 0.0, opacity], ..lambert([0.0; 3]) };
+    for moves in [false, true] {
+        for opacity in [0.0, 0.3, 0.7, 1.0] {
+            let [red, blue] =
+                [Material { unlit: true, ..sheet(opacity) }, Material { unlit: true, ..lambert([0.0, 0.0, 0.5]) }];
+            let found = images(behind_a_sheet(red, blue, moves), from_above(), tracer(Sampling::Both, 0), 64);
+            let what = format!("opacity {opacity}, moves: {moves}");
+            channel(&found, 0).assert_is(0.8 * f64::from(opacity), 1e-4, &what);
+            channel(&found, 2).assert_is(0.5 * f64::from(1.0 - opacity), 1e-4, &what);
+        }
+    }
+}
+
+#[test]
+fn light_goes_through_a_blended_surface() {
+    // A black sheet takes its opacity of the light on the way down, and again on the way up. Nothing lights it in turn.
+    let sheet = Material { alpha: Alpha::Blend, base_color: [0.0, 0.0, 0.0, 0.4], ..lambert([0.0; 3]) };
+    for sampling in super::SAMPLINGS {
+        let scene = behind_a_sheet(sheet.clone(), lambert([0.5; 3]), false);
+        let found = images(scene, from_above(), tracer(sampling, 0), 256);
+        channel(&found, 1).assert_is(0.5 * 0.6 * 0.6, 1e-3, &format!("{sampling:?}"));
+    }
+}
+
+#[test]
+fn two_instances_of_one_mesh_are_met_independently() {
+    // Both sheets are the same triangles, so that a random number of the triangle alone would let through all or nothing.
+    let sheet = Material { alpha: Alpha::Blend, unlit: true, base_color: [0.0, 0.0, 0.0, 0.5], ..lambert([0.0; 3]) };
+    let mut scene = behind_a_sheet(sheet, Material { unlit: true, ..lambert([1.0; 3]) }, true);
+    let transform = Transform::Trs { translation: [0.0, 0.25, 0.0], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
+    scene.nodes.push(Node { meshes: vec![1], transform, movable: true, ..Default::default() });
+    let found = images(scene, from_above(), tracer(Sampling::Both, 0), 64);
+    channel(&found, 1).assert_is(0.25, 1e-4, "two sheets of ½");
+}
+
+#[test]
+fn what_is_seen_through_a_blended_surface_comes_to_rest() {
+    use crate::common::stage::Stage;
+    use asvgf::Settings;
+    let red = Material { alpha: Alpha::Blend, unlit: true, base_color: [0.8, 0.0, 0.0, 0.3], ..lambert([0.0; 3]) };
+    let blue = Material { unlit: true, ..lambert([0.0, 0.0, 0.5]) };
+    let mut stage = Stage::new(behind_a_sheet(red, blue, false), SIZE, Settings::adaptive());
+    stage.camera = Some(from_above());
+    let image = stage.frames(64).image();
+    for color in &image {
+        // 64 samples of a coin with a probability of 0.3, filtered in space: 0.8 · 0.46 / 8 is one standard deviation of one pixel.
+        assert!((color[0] - 0.24).abs() < 0.08 && (color[2] - 0.35).abs() < 0.05, "{color:?}");
+    }
+    let next = stage.frame().image();
+    let change = image.iter().zip(&next).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
+    assert!(change < 0.03, "a pixel changes by {change} from frame to frame");
+}
