@@ -1,6 +1,6 @@
 //! The dielectric part: KHR_materials_ior, KHR_materials_specular, KHR_materials_pbrSpecularGlossiness.
 
-use asvgf::scene::{Material, Scene};
+use asvgf::scene::{Alpha, Material, Scene};
 use serde_json::{Value, json};
 
 use crate::common::*;
@@ -14,7 +14,7 @@ fn scene(extensions: Value, warnings: &[(&str, &str)]) -> Scene {
     let view = gltf.view(&png(1, 1, [10, 20, 30, 204]));
     gltf.push("images", json!({"bufferView": view}));
     gltf.push("textures", json!({"source": 0}));
-    gltf.push("materials", json!({"extensions": extensions}));
+    gltf.push("materials", json!({"extensions": extensions, "pbrMetallicRoughness": {"metallicFactor": 0}}));
     let loaded = gltf.load().unwrap();
     assert_warnings(&loaded, warnings);
     loaded.scene
@@ -65,4 +65,20 @@ fn glossiness_becomes_roughness() {
     let specular = &scene.images[material.specular_color_texture.unwrap().image];
     assert_eq!(specular.texels, [[10, 20, 30, 204]]);
     assert_eq!(material.base_color_texture.unwrap().image, 0);
+}
+
+#[test]
+fn glass_is_a_thin_pane() {
+    let pane = json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.5}});
+    let warned = [("materials[0].KHR_materials_transmission", "thin pane")];
+    let pane = scene(pane, &warned).materials[0].clone();
+    // 4 % are reflected like a mirror, the rest goes through.
+    assert_eq!(pane.alpha, Alpha::Blend);
+    assert_close(&[pane.base_color[0], pane.base_color[3]], &[0.0, 0.04], 1e-6);
+    assert_close(&pane.specular, &[1.0; 3], 1e-5);
+    let half = scene(json!({"KHR_materials_transmission": {"transmissionFactor": 0.5}}), &warned).materials[0].clone();
+    // τ = 0.48: what a ray meets, times how often it meets it, is (1 − t)(1 − F₀) = 0.48 and F₀ = 0.04.
+    assert_close(&[half.base_color[3], half.base_color[0] * 0.52, half.specular[0] * 0.52], &[0.52, 0.48, 0.04], 1e-5);
+    let none = material(json!({"KHR_materials_transmission": {}}));
+    assert_eq!((none.alpha, none.base_color[3]), (Alpha::Opaque, 1.0));
 }

@@ -10,7 +10,7 @@ use super::text::tidy;
 use crate::scene::load::report::{Fault, Report};
 
 /// Extensions that are honoured.
-const READ: [&str; 10] = [
+const READ: [&str; 11] = [
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
     "KHR_lights_punctual",
@@ -18,6 +18,7 @@ const READ: [&str; 10] = [
     "KHR_materials_ior",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular",
+    "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_texture_transform",

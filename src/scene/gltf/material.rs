@@ -7,6 +7,7 @@ use gltf::json::validation::Checked;
 use super::glossiness;
 use super::image::Images;
 use super::source::Source;
+use super::transmission;
 use crate::scene::description::{Alpha, Material, Scene};
 use crate::scene::load::report::Report;
 
@@ -58,7 +59,10 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
     };
     match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
         Some(extension) => glossiness::read(extension, common, element, images, report),
-        None => metallic_roughness(source, common, element, images, report),
+        None => {
+            let material = metallic_roughness(source, common, element, images, report);
+            transmission::apply(source, material, element, report)
+        }
     }
 }
 

@@ -22,6 +22,7 @@ mod node;
 mod source;
 mod text;
 mod transform;
+mod transmission;
 
 use std::path::Path;
 
