@@ -2,6 +2,8 @@
 
 use std::fs::File;
 
+use exr::meta::attribute::Chromaticities;
+
 use asvgf::image_io;
 use asvgf::scene::Environment;
 
@@ -54,6 +56,48 @@ fn luminance_and_chroma_are_colours() {
     let image = image_io::Channels { width: 1, height: 1, channels: channels.into() };
     image_io::write_exr(&path, &image).unwrap();
     assert_close(&Environment::load(&path).unwrap().0.radiance[0], &color, 1e-3);
+}
+
+/// Rows 2 and 3 of a picture of four rows, in these primaries.
+fn write_exr_with(path: &std::path::Path, color: [f32; 3], chromaticities: Option<Chromaticities>) {
+    use exr::prelude::*;
+    let mut attributes = LayerAttributes::default();
+    attributes.layer_position = Vec2(0, 2);
+    let channels = SpecificChannels::rgb(|_: Vec2<usize>| (color[0], color[1], color[2]));
+    let mut image = Image::from_layer(Layer::new((2, 2), attributes, Encoding::UNCOMPRESSED, channels));
+    image.attributes.display_window = IntegerBounds::from_dimensions((2, 4));
+    image.attributes.chromaticities = chromaticities;
+    image.write().to_file(path).unwrap();
+}
+
+#[test]
+fn a_data_window_is_placed_in_the_display_window() {
+    let folder = Folder::new();
+    let path = folder.0.join("window.exr");
+    write_exr_with(&path, [1.0, 2.0, 3.0], None);
+    let (environment, warnings) = Environment::load(&path).unwrap();
+    assert!(warnings.is_empty());
+    assert_eq!((environment.width, environment.height), (2, 4));
+    assert_eq!(environment.radiance, [[[0.0; 3]; 4], [[1.0, 2.0, 3.0]; 4]].concat());
+}
+
+#[test]
+fn chromaticities_are_converted() {
+    use exr::prelude::Vec2;
+    let folder = Folder::new();
+    let path = folder.0.join("p3.exr");
+    // Display P3, whose white is that of Rec. 709: its red is beyond that of Rec. 709 (SMPTE EG 432-1).
+    let p3 = Chromaticities {
+        red: Vec2(0.68, 0.32),
+        green: Vec2(0.265, 0.69),
+        blue: Vec2(0.15, 0.06),
+        white: Vec2(0.3127, 0.3290),
+    };
+    write_exr_with(&path, [0.5, 0.5, 0.5], Some(p3));
+    assert_close(&Environment::load(&path).unwrap().0.radiance[4], &[0.5; 3], 1e-5);
+    write_exr_with(&path, [0.0, 0.5, 0.0], Some(p3));
+    // P3 green in Rec. 709 is (−0.2249, 1.0421, −0.0786) per unit; what is negative becomes 0.
+    assert_close(&Environment::load(&path).unwrap().0.radiance[4], &[0.0, 0.52103, 0.0], 1e-3);
 }
 
 #[test]

@@ -4,6 +4,7 @@
 mod common;
 
 mod animation;
+mod documentation;
 mod environment;
 mod gltf_errors;
 mod gltf_geometry;
