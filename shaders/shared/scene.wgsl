@@ -10,10 +10,11 @@ struct Scene {
     light_count: u32,
     // Light index of the environment, or 0xffffffff.
     environment_light: u32,
-    environment_texels: u32,
-    environment_alias: u32,
     environment_width: u32,
     environment_height: u32,
+    // log₂ of the texels of a cell of `environment_table`, and of the cells of a row.
+    environment_run: u32,
+    environment_columns: u32,
     // Words per triangle in `attributes`, and where the two sets of texture coordinates begin in them.
     attribute_stride: u32,
     uv_first: u32,
@@ -25,6 +26,8 @@ struct Scene {
     // Where rays start: the root of the one tree, or of the top level.
     root: u32,
     grid_step: vec3<f32>,
+    // log₂ of the cells.
+    environment_cells: u32,
 }
 
 @group(1) @binding(0) var<uniform> scene: Scene;
@@ -45,11 +48,15 @@ struct Scene {
 // Materials and lights, the structs below texel by texel.
 @group(1) @binding(5) var materials: texture_2d<u32>;
 @group(1) @binding(6) var lights: texture_2d<u32>;
-// RGBA8 texels of all images; the environment's radiances and alias table as f32 bits.
-@group(1) @binding(7) var<storage, read> texels: array<u32>;
+// RGBA8 texels of all images, folded into layers as in src/scene/texels.rs.
+@group(1) @binding(7) var images: texture_2d_array<u32>;
+// Radiances, packed as in src/scene/sky.rs.
+@group(1) @binding(10) var environment: texture_2d<u32>;
+// Alias table over the cells of the environment: threshold, the other cell, luminance of this cell and of that.
+@group(1) @binding(11) var environment_table: texture_2d<u32>;
 
 struct TextureUse {
-    // First texel in `texels`.
+    // First texel in `images`.
     first: u32,
     width: u32,
     height: u32,
@@ -119,6 +126,10 @@ fn material_word(i: u32) -> vec4<u32> {
 
 fn light_word(i: u32) -> vec4<u32> {
     return textureLoad(lights, vec2(i & 4095u, i >> 12u), 0);
+}
+
+fn image_word(i: u32) -> u32 {
+    return textureLoad(images, vec2(i & 4095u, (i >> 12u) & 1023u), i >> 22u, 0).x;
 }
 
 fn texture_use(first: u32) -> TextureUse {

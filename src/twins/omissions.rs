@@ -18,6 +18,7 @@ const ALL: Traits = Traits {
     emitters: true,
     punctual_lights: true,
     environment: true,
+    environment_run: 1,
     unlit: true,
     few_triangles: false,
     levels: 8,
@@ -83,7 +84,14 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "world_to_object",
     ][..];
     let images = &["exists", "sample_texture", "srgb_to_linear", "texel", "texture_coordinates", "wrap"][..];
-    let sky = &["environment_density", "environment_texel", "texel_radiance"][..];
+    let sky = &[
+        "environment",
+        "environment_density",
+        "environment_table",
+        "environment_texel",
+        "texel_radiance",
+        "unpack_rgb",
+    ][..];
     let cases: [(Traits, &[&str]); 8] = [
         (Traits { instanced: false, ..ALL }, moving),
         (Traits { textures: false, ..ALL }, images),
