@@ -5,7 +5,7 @@ use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::passes::{self, Pass};
 use crate::plan::{Changes, Feature, Features, HostTraits, Plan, Step, Traits, Traversal};
-use crate::scene::{GpuScene, builtin};
+use crate::scene::{Environment, GpuScene, Scene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
 use std::collections::{BTreeMap, BTreeSet};
@@ -263,7 +263,9 @@ fn check(device: &Device, scene: &GpuScene, shaders: &mut Shaders, permutation: 
 #[test]
 fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
     let (device, queue) = noop_device();
-    let scene = GpuScene::new(&device, &queue, &builtin::scene("cornell", "static").unwrap()).unwrap();
+    let sky = Some(Environment::uniform([1.0; 3]));
+    let scene = Scene { environment: sky, ..builtin::scene("cornell", "static").unwrap() };
+    let scene = GpuScene::new(&device, &queue, &scene).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     let steps = steps();
     let mut counts = BTreeMap::<&str, usize>::new();
@@ -283,7 +285,9 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
 #[test]
 fn every_size_of_stack_and_of_few_triangles_compiles() {
     let (device, queue) = noop_device();
-    let scene = GpuScene::new(&device, &queue, &builtin::scene("pillars", "all").unwrap()).unwrap();
+    let sky = Some(Environment::uniform([1.0; 3]));
+    let scene = Scene { environment: sky, ..builtin::scene("pillars", "all").unwrap() };
+    let scene = GpuScene::new(&device, &queue, &scene).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     for (permutation, step) in traversals() {
         check(&device, &scene, &mut shaders, permutation, &step);
