@@ -48,8 +48,12 @@ struct Scene {
 // Materials and lights, the structs below texel by texel.
 @group(1) @binding(5) var materials: texture_2d<u32>;
 @group(1) @binding(6) var lights: texture_2d<u32>;
-// RGBA8 texels of all images, folded into layers as in src/scene/texels.rs.
+// RGBA8 texels of all images; folded into layers as in src/scene/texels.rs where a buffer cannot hold them.
+#ifdef FOLDED_IMAGES
 @group(1) @binding(7) var images: texture_2d_array<u32>;
+#else
+@group(1) @binding(7) var<storage, read> images: array<u32>;
+#endif
 // Radiances, packed as in src/scene/sky.rs.
 @group(1) @binding(10) var environment: texture_2d<u32>;
 // Alias table over the cells of the environment: threshold, the other cell, luminance of this cell and of that.
@@ -129,7 +133,11 @@ fn light_word(i: u32) -> vec4<u32> {
 }
 
 fn image_word(i: u32) -> u32 {
+#ifdef FOLDED_IMAGES
     return textureLoad(images, vec2(i & 4095u, (i >> 12u) & 1023u), i >> 22u, 0).x;
+#else
+    return images[i];
+#endif
 }
 
 fn texture_use(first: u32) -> TextureUse {

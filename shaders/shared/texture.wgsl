@@ -2,7 +2,7 @@
 
 #import asvgf::scene::{scene, image_word, attributes, load_material, geometry_word, TextureUse}
 
-// Images lie in one texture, because not every GPU has arrays of differently sized textures.
+// Images lie in one buffer or texture, because not every GPU has arrays of differently sized textures.
 
 fn texture_coordinates(row: u32, barycentrics: vec2<f32>, uv_set: u32) -> vec2<f32> {
     let first = row * scene.attribute_stride + select(scene.uv_first, scene.uv_second, uv_set != 0u);

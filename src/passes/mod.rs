@@ -158,8 +158,14 @@ impl Pass {
 
 /// What a shader that follows rays through the scene can have compiled in.
 #[cfg(feature = "path-tracer")]
-const GEOMETRY: &[Feature] =
-    &[Feature::Instanced, Feature::Textures, Feature::ShadingNormals, Feature::AlphaMask, Feature::FewTriangles];
+const GEOMETRY: &[Feature] = &[
+    Feature::Instanced,
+    Feature::Textures,
+    Feature::FoldedImages,
+    Feature::ShadingNormals,
+    Feature::AlphaMask,
+    Feature::FewTriangles,
+];
 
 /// What the shader takes out of a host's radiance as it reads it.
 const MODULATION: [Feature; 3] = [Feature::Modulated, Feature::Albedo, Feature::DirectEmission];

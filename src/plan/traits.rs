@@ -7,6 +7,8 @@ pub struct Traits {
     pub instanced: bool,
     /// Materials have textures.
     pub textures: bool,
+    /// Images together are larger than a storage binding.
+    pub folded_images: bool,
     /// Meshes have interpolated normals.
     pub shading_normals: bool,
     /// Some surface is not purely Lambertian.

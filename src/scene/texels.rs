@@ -1,9 +1,12 @@
-//! The texels of all images, in the layers of one texture.
+//! The texels of all images: in a buffer, or in the layers of a texture if they are larger than a storage binding.
+//!
+//! A texture would do for all, but on adapters that are the CPU fetches take longer than reads of a buffer.
 
+use super::buffers::storage;
 use super::textures::{self, Writer};
 use super::{Image, SceneError, Texture, Wrap, folded};
 use bytemuck::{Pod, Zeroable};
-use wgpu::{Device, Limits, Queue, TextureFormat, TextureView, TextureViewDimension};
+use wgpu::{BindingResource, Buffer, Device, Limits, Queue, TextureFormat, TextureView, TextureViewDimension};
 
 /// Rows of a layer, as in shaders/shared/scene.wgsl. A layer is written at once: a layer that is written in part is cleared first.
 const ROWS: usize = 1024;
@@ -63,19 +66,56 @@ fn check(texels: u64, limits: &Limits) -> Result<(), SceneError> {
     Err(SceneError { file: "scene".into(), element: "images".into(), reason })
 }
 
-/// The texture that holds the images. Without any it has one texel, because shaders for all kinds of scenes bind it.
-pub(super) fn texture(device: &Device, queue: &Queue, images: &[Image]) -> (wgpu::Texture, TextureView) {
-    let count: usize = images.iter().map(|image| image.texels.len()).sum();
-    let size = match count {
-        0 => [1, 1, 1],
-        _ => [folded::WIDTH, count.div_ceil(folded::WIDTH).min(ROWS), count.div_ceil(LAYER)].map(|size| size as u32),
-    };
+/// The images on the GPU.
+#[derive(Debug)]
+pub(super) enum Images {
+    Buffer(Buffer),
+    /// [`Feature::FoldedImages`](crate::plan::Feature::FoldedImages).
+    Texture(wgpu::Texture, TextureView),
+}
+
+impl Images {
+    pub fn new(device: &Device, queue: &Queue, images: &[Image]) -> Self {
+        let limits = device.limits();
+        let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let count: usize = images.iter().map(|image| image.texels.len()).sum();
+        if (count * size_of::<u32>()) as u64 <= largest {
+            let texels: Vec<[u8; 4]> = images.iter().flat_map(|image| &image.texels).copied().collect();
+            // Shaders for all kinds of scenes bind a buffer of a word, where there are no images.
+            return Self::Buffer(storage(device, "images", &texels, size_of::<u32>()));
+        }
+        let (texture, view) = texture(device, queue, images, count);
+        Self::Texture(texture, view)
+    }
+
+    pub fn are_folded(&self) -> bool {
+        matches!(self, Self::Texture(..))
+    }
+
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Self::Buffer(buffer) => buffer.size(),
+            Self::Texture(texture, _) => textures::bytes(texture),
+        }
+    }
+
+    pub fn resource(&self) -> BindingResource<'_> {
+        match self {
+            Self::Buffer(buffer) => buffer.as_entire_binding(),
+            Self::Texture(_, view) => BindingResource::TextureView(view),
+        }
+    }
+}
+
+/// A texture that holds the images, `count` texels together.
+fn texture(device: &Device, queue: &Queue, images: &[Image], count: usize) -> (wgpu::Texture, TextureView) {
+    let size = [folded::WIDTH, count.div_ceil(folded::WIDTH).min(ROWS), count.div_ceil(LAYER)].map(|size| size as u32);
     let (texture, view) =
         textures::texture(device, "images", TextureFormat::R32Uint, size, TextureViewDimension::D2Array);
     let mut writer = Writer::new(queue);
     let height = size[1] as usize;
     let mut layer = 0;
-    let mut texels: Vec<[u8; 4]> = Vec::with_capacity(if count > 0 { folded::WIDTH * height } else { 0 });
+    let mut texels: Vec<[u8; 4]> = Vec::with_capacity(folded::WIDTH * height);
     let mut write = |texels: &mut Vec<[u8; 4]>| {
         texels.resize(folded::WIDTH * height, [0; 4]);
         writer.rows(&texture, [layer, 0], bytemuck::cast_slice(texels));

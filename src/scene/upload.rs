@@ -9,7 +9,7 @@ use super::instances::{self, Instance, NODE_TEXELS, top_level_nodes, top_level_t
 use super::lights::{self, AnalyticLight, Emitter, GpuLight};
 use super::sky::Sky;
 use super::snapshot::{Snapshot, Visible};
-use super::texels::{self, Place};
+use super::texels::{self, Images, Place};
 use super::textures;
 use super::{Light, Material, Matrix, Pose, Scene, SceneError, materials};
 use crate::plan::{Traits, Traversal};
@@ -62,7 +62,7 @@ struct Buffers {
     scene: Buffer,
     geometry: (Texture, TextureView),
     attributes: Buffer,
-    images: (Texture, TextureView),
+    images: Images,
     materials: (Texture, TextureView),
     lights: (Texture, TextureView),
     sky: Option<Sky>,
@@ -211,6 +211,8 @@ impl GpuScene {
         }
         traits.instanced = instanced;
         traits.punctual_lights = !punctual.is_empty();
+        let image_texels = Images::new(device, queue, &scene.images);
+        traits.folded_images = image_texels.are_folded();
         traits.environment = sky.is_some();
         traits.environment_run = sky.as_ref().map_or(0, |sky| 1 << sky.cells.run);
         traits.emitters &= first_punctual > 0;
@@ -273,7 +275,7 @@ impl GpuScene {
                 scene: buffer(device, "scene", bytemuck::bytes_of(&header), BufferUsages::UNIFORM),
                 geometry: folded("geometry", &texels),
                 attributes: storage(device, "normals and texture coordinates", &geometry.attributes, 4),
-                images: texels::texture(device, queue, &scene.images),
+                images: image_texels,
                 materials: {
                     let materials = materials::materials(&scene.materials, &pose.emission, &images);
                     folded("materials", folded::texels(&materials))
@@ -348,9 +350,9 @@ impl GpuScene {
     pub fn memory(&self) -> u64 {
         let b = &self.buffers;
         let sky = b.sky.iter().flat_map(|sky| [&sky.radiance.0, &sky.table.0]);
-        let textures = [&b.geometry.0, &b.images.0, &b.materials.0, &b.lights.0].into_iter().chain(sky);
+        let textures = [&b.geometry.0, &b.materials.0, &b.lights.0].into_iter().chain(sky);
         let buffers = [&b.attributes, &b.facets, &b.facet_owners];
-        textures.map(textures::bytes).sum::<u64>() + buffers.iter().map(|b| b.size()).sum::<u64>()
+        textures.map(textures::bytes).sum::<u64>() + buffers.iter().map(|b| b.size()).sum::<u64>() + b.images.bytes()
     }
 
     /// The scene as paths see it now.
@@ -382,7 +384,7 @@ impl GpuScene {
             "geometry" => return Some(BindingResource::TextureView(&b.geometry.1)),
             "materials" => return Some(BindingResource::TextureView(&b.materials.1)),
             "lights" => return Some(BindingResource::TextureView(&b.lights.1)),
-            "images" => return Some(BindingResource::TextureView(&b.images.1)),
+            "images" => return Some(b.images.resource()),
             "environment" => return Some(BindingResource::TextureView(&b.sky.as_ref()?.radiance.1)),
             "environment_table" => return Some(BindingResource::TextureView(&b.sky.as_ref()?.table.1)),
             "scene" => &b.scene,

@@ -12,6 +12,7 @@ use wgpu::naga::Module;
 const ALL: Traits = Traits {
     instanced: true,
     textures: true,
+    folded_images: false,
     shading_normals: true,
     specular: true,
     alpha_mask: true,

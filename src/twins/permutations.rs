@@ -28,7 +28,9 @@ fn noop_device() -> (Device, Queue) {
 
 /// All combinations: at some 150 shaders a second they are checked in a quarter of a minute.
 fn traits() -> Vec<Traits> {
-    (0_u32..1024)
+    (0_u32..2048)
+        // Only images may be folded. It changes one function, and is tried with a part of the rest.
+        .filter(|bits| bits >> 10 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1_0110_0000 == 0)
         // Where each triangle is tested, there is no alpha mask.
         .filter(|bits| bits >> 4 & 1 == 0 || bits >> 9 & 1 == 0)
         .map(|bits| {
@@ -44,6 +46,7 @@ fn traits() -> Vec<Traits> {
                 environment: bit(7),
                 unlit: bit(8),
                 few_triangles: bit(9),
+                folded_images: bit(10),
                 ..Default::default()
             }
         })
