@@ -180,6 +180,8 @@ pub(crate) fn unpack([low, high]: [u32; 2]) -> [f32; 3] {
 mod tests {
     use super::*;
 
+    type Picture<'a> = &'a dyn Fn(u32, u32) -> [f32; 3];
+
     fn sums(width: u32, height: u32, most_cells: u32, radiance: impl Fn(u32, u32) -> [f32; 3]) -> Sums {
         let mut sums = Sums::new(width, height, most_cells);
         for y in 0..height {
@@ -204,12 +206,12 @@ mod tests {
     fn each_texel_has_the_probability_of_its_light() {
         let noise = |x: u32, y: u32| {
             let n = (x * 7919 + y * 104_729) % 1009;
-            [0.001 * n as f32, 0.5 + (n % 7) as f32, if n % 3 == 0 { 0.0 } else { 2.0 }]
+            [0.001 * n as f32, 0.5 + (n % 7) as f32, if n.is_multiple_of(3) { 0.0 } else { 2.0 }]
         };
         let sun = |x: u32, y: u32| if (x, y) == (41, 13) { [1e6, 9e5, 8e5] } else { noise(x, y) };
         let sun_alone = |x: u32, y: u32| if (x, y) == (3, 2) { [1e6; 3] } else { [0.0; 3] };
-        let mostly_black = |x: u32, y: u32| if (x / 5 + y) % 4 == 0 { noise(x, y) } else { [0.0; 3] };
-        let pictures: [(&str, &dyn Fn(u32, u32) -> [f32; 3]); 4] =
+        let mostly_black = |x: u32, y: u32| if (x / 5 + y).is_multiple_of(4) { noise(x, y) } else { [0.0; 3] };
+        let pictures: [(&str, Picture); 4] =
             [("noise", &noise), ("a sun", &sun), ("a sun alone", &sun_alone), ("mostly black", &mostly_black)];
         for (name, picture) in pictures {
             for ([width, height], most) in [
