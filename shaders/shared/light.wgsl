@@ -100,15 +100,16 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         // a hash of both numbers gives 32 more.
         let more = hash(bitcast<u32>(u.x) ^ hash(bitcast<u32>(u.y)));
         let number = u32(u.x * 16777216.0);
-        let bits = scene.environment_cells;
+        let bits = scene.environment_cells & 255u;
+        let column_bits = scene.environment_cells >> 8u;
         let entry = number >> (24u - bits);
         let within = f32((number << (8u + bits)) | (more >> (24u - bits))) * (1.0 / 4294967296.0);
         let choice = textureLoad(environment_table, vec2(entry & 4095u, entry >> 12u), 0);
         let threshold = bitcast<f32>(choice.x);
         let kept = within < threshold;
         let cell = select(choice.y, entry, kept);
-        let row = cell >> scene.environment_columns;
-        let first = (cell & ((1u << scene.environment_columns) - 1u)) << scene.environment_run;
+        let row = cell >> column_bits;
+        let first = (cell & ((1u << column_bits) - 1u)) << scene.environment_run;
         let last = min(first + (1u << scene.environment_run), scene.environment_width) - 1u;
         var share = bitcast<f32>(select(choice.w, choice.z, kept)) * (f32(hash(more)) * (1.0 / 4294967296.0));
         var column = first;

@@ -12,9 +12,10 @@ struct Scene {
     environment_light: u32,
     environment_width: u32,
     environment_height: u32,
-    // log₂ of the texels of a cell of `environment_table`, and of the cells of a row.
+    // log₂ of the texels of a cell of `environment_table`.
     environment_run: u32,
-    environment_columns: u32,
+    // log₂ of all cells, and 8 bits up that of the cells of a row.
+    environment_cells: u32,
     // Words per triangle in `attributes`, and where the two sets of texture coordinates begin in them.
     attribute_stride: u32,
     uv_first: u32,
@@ -26,8 +27,6 @@ struct Scene {
     // Where rays start: the root of the one tree, or of the top level.
     root: u32,
     grid_step: vec3<f32>,
-    // log₂ of the cells.
-    environment_cells: u32,
 }
 
 @group(1) @binding(0) var<uniform> scene: Scene;

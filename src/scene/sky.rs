@@ -3,7 +3,7 @@
 //! Texels are chosen in proportion to luminance times solid angle. An alias table with an entry for each texel would take more memory
 //! than an 8192 × 4096 picture itself. Its entries are therefore cells, runs of a row's texels; the shader goes along the run, whose
 //! texels have the same solid angle, and stops where the luminances that it has passed reach a random share of their sum. In pictures of
-//! up to [`MOST_CELLS`] texels a cell is a texel.
+//! up to 1024 × 1024 texels a cell is a texel.
 
 use super::folded::{self, Texel};
 use super::lights::luminance;

@@ -89,7 +89,7 @@ struct Header {
     environment_width: u32,
     environment_height: u32,
     environment_run: u32,
-    environment_columns: u32,
+    environment_cells: u32,
     attribute_stride: u32,
     uv0: u32,
     uv1: u32,
@@ -97,7 +97,7 @@ struct Header {
     grid_base: [f32; 3],
     root: u32,
     grid_step: [f32; 3],
-    environment_cells: u32,
+    pad: u32,
 }
 
 impl Header {
@@ -204,8 +204,7 @@ impl GpuScene {
             header.environment_light = light_table.len() as u32;
             [header.environment_width, header.environment_height] = sky.size();
             header.environment_run = sky.cells.run;
-            header.environment_columns = sky.cells.columns;
-            header.environment_cells = sky.cells.all;
+            header.environment_cells = sky.cells.all | sky.cells.columns << 8;
             light_table.push(GpuLight { kind: lights::ENVIRONMENT, ..Default::default() });
             powers.push(sky.weight * PI * radius * radius);
         }
@@ -474,8 +473,8 @@ mod tests {
     #[test]
     fn the_scene_lies_where_the_shaders_read_it() {
         let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_width,
-            environment_height, environment_run, environment_columns, attribute_stride, uv0 as "uv_first",
-            uv1 as "uv_second", environment_density, grid_base, root, grid_step, environment_cells);
+            environment_height, environment_run, environment_cells, attribute_stride, uv0 as "uv_first",
+            uv1 as "uv_second", environment_density, grid_base, root, grid_step);
         assert_layout("Scene", header, size_of::<Header>());
         let light = fields!(GpuLight: kind, alias as "alias_index", threshold, pmf, position, triangle, axis, instance,
             intensity, range, spot_scale, spot_offset);
