@@ -21,6 +21,9 @@
 #import asvgf::scene::{NO_TRIANGLE, geometry_word, instance_numbers, scene}
 #import asvgf::color::{BRIGHTEST, luminance, sanitize}
 #import asvgf::packing::pack_rgb
+#ifdef ALPHA_BLEND
+#import asvgf::texture::{cover_at_random, is_blended}
+#endif
 #ifdef RESHADE
 #import asvgf::strata::{is_sample_pixel, previous_pixel, stratum_of}
 #endif
@@ -90,6 +93,9 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
         let direction_u = vec2(uniform_float(&state), uniform_float(&state));
         let survival = uniform_float(&state);
         let origin = offset_origin(s.position, s.geometric);
+#ifdef ALPHA_BLEND
+        cover_at_random(state);
+#endif
 #ifdef LIGHTS
 #ifndef SCATTERED_RAYS_ONLY
         let light = sample_light(s.position, light_choice, light_u);
@@ -164,6 +170,36 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
     return total;
 }
 
+#ifdef ALPHA_BLEND
+// Where a path begins that meets blended surfaces at random.
+struct Start {
+    surface: Surface,
+    // What comes to the camera from there without a reflection, and whether that is all.
+    light: vec3<f32>,
+    ends: bool,
+    // Whether the ray has met a blended surface, which does not depend on the seed: before the first one nothing is random.
+    blended: bool,
+}
+
+// The surface that this path of a pixel meets first. The visibility buffer has the same surface in each frame, so that the history
+// of a pixel is that of one surface; the light of the pixel is that of all surfaces that its ray may meet, colours included.
+fn start_of_path(seen: Surface, ray: Ray, seed: u32) -> Start {
+    cover_at_random(seed);
+    is_blended = false;
+    rays += 1u;
+    let hit = closest_hit(ray);
+    if !is_blended {
+        return Start(seen, vec3(0.0), false, false);
+    }
+    if hit.triangle == NO_TRIANGLE {
+        return Start(seen, environment_radiance(normalize(ray.direction)), true, true);
+    }
+    let v = Visible(hit.triangle, hit.instance);
+    let surface = surface_at(v, triangle_now(v), hit.barycentrics, ray.direction);
+    return Start(surface, surface.emission, false, true);
+}
+#endif
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef FEW_TRIANGLES
@@ -188,10 +224,22 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     var s = visible_surface(seen, frame.camera, vec2<f32>(id.xy), false);
+#ifdef ALPHA_BLEND
+    var ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
+    let is_own_blended = start_of_path(s, ray, 0u).blended;
+#endif
 #ifndef LATER_PATHS
-    let albedo = demodulation(s);
+    var albedo = demodulation(s);
+    var emission = s.emission;
+#ifdef ALPHA_BLEND
+    // Their light has the colours of several surfaces in it.
+    if is_own_blended {
+        albedo = vec3(1.0);
+        emission = vec3(0.0);
+    }
+#endif
 #ifdef DIRECT_EMISSION
-    textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(s.emission)), 0u, 0u));
+    textureStore(emission_out, pixel, vec4(pack_rgb(sanitize(emission)), 0u, 0u));
 #endif
 #endif
     var seed_pixel = id.xy;
@@ -202,6 +250,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let q = previous_pixel(record);
         let then = textureLoad(visibility_previous, q, 0).x;
         s = visible_surface(then, frame.previous, vec2<f32>(q), true);
+#ifdef ALPHA_BLEND
+        ray = Ray(frame.previous.eye, direction(frame.previous, sample_point(frame.previous, vec2<f32>(q))));
+#endif
         seed_pixel = vec2<u32>(q);
         seed_frame = frame.index - 1u;
     }
@@ -212,14 +263,27 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     sum = before.xyz;
     rays = u32(before.w);
 #endif
+    var modulation = demodulation(s);
     for (var i = 0u; i < frame.batch; i++) {
-        sum += sanitize(path(s, seed_of(seed_pixel, seed_frame, frame.first_sample + i, frame.seed)));
+        let seed = seed_of(seed_pixel, seed_frame, frame.first_sample + i, frame.seed);
+#ifdef ALPHA_BLEND
+        let start = start_of_path(s, ray, seed);
+        if start.blended {
+            modulation = vec3(1.0);
+            sum += sanitize(start.light);
+        }
+        if !start.ends {
+            sum += sanitize(path(start.surface, seed));
+        }
+#else
+        sum += sanitize(path(s, seed));
+#endif
     }
 #ifdef LATER_PATHS
     textureStore(paths_out, pixel, vec4(sum, f32(rays)));
 #else
     textureStore(albedo_out, pixel, vec4(albedo, min(f32(rays), MOST_RAYS)));
-    let demodulated = sum / (f32(frame.samples) * demodulation(s));
+    let demodulated = sum / (f32(frame.samples) * modulation);
     textureStore(radiance_out, pixel, vec4(pack_rgb(min(demodulated, vec3(BRIGHTEST))), 0u, 0u));
 #endif
 }

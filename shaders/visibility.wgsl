@@ -12,6 +12,9 @@
 #endif
 #import asvgf::surface::{Visible, visibility_id, triangle_now, triangle_before, barycentrics, at, geometric_normal, shading_normal}
 #import asvgf::scene::NO_TRIANGLE
+#ifdef ALPHA_BLEND
+#import asvgf::texture::{cover_from, is_blended}
+#endif
 #import asvgf::packing::{pack_motion, pack_normal}
 
 @group(0) @binding(1) var visibility_out: texture_storage_2d<r32uint, write>;
@@ -33,7 +36,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
-    let hit = closest_hit(ray);
+    var hit = closest_hit(ray);
+#ifdef ALPHA_BLEND
+    // Surfaces that let most light through are seen where there is no other: a pixel that sees none is not filtered.
+    if hit.triangle == NO_TRIANGLE && is_blended {
+        cover_from(0.0);
+        hit = closest_hit(ray);
+    }
+#endif
     var id_seen = NO_TRIANGLE;
     var object = NO_TRIANGLE;
     var guide = vec2(0u);

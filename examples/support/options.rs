@@ -23,7 +23,10 @@ Scene
                                   [built-in scenes: all; files: the first, if any]
   --environment FILE    light from all around: .hdr, .exr, .png or .jpg, equirectangular;
                         or sky, a cloudy one            [sky, if the scene has no light]
-  --list                print scenes and animations, and what is in SCENE; render nothing
+  --cull                leave out the back faces of materials that are not double-sided, as
+                        rasterizers do
+  --list                print scenes and animations, all meshes and materials of SCENE, and
+                        what of them is not read; render nothing
 
 Camera                                 [the file's own, else one that frames the scene]
   --eye X,Y,Z           where it is, in metres, +Y up
@@ -131,6 +134,7 @@ pub struct Options {
     pub compare: Option<u32>,
     pub sequence: bool,
     pub explain: bool,
+    pub cull: bool,
     pub list: bool,
 }
 
@@ -155,6 +159,7 @@ impl Default for Options {
             compare: None,
             sequence: false,
             explain: false,
+            cull: false,
             list: false,
         }
     }
@@ -194,6 +199,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
             }
             "sequence" => options.sequence = true,
             "explain" => options.explain = true,
+            "cull" => options.cull = true,
             "list" => options.list = true,
             "environment" => options.environment = Some(parser.value()?.into()),
             "out" => options.out = parser.value()?.into(),

@@ -5,7 +5,7 @@ use crate::framing::{bounds, framing};
 use crate::options::{Options, Source, Viewpoint};
 use crate::sky::{is_dark, sky};
 use asvgf::Camera;
-use asvgf::scene::{self, Environment, Pose, Scene, Warning, builtin};
+use asvgf::scene::{self, Environment, Loaded, Pose, Scene, Warning, builtin};
 use glam::Vec3;
 use std::error::Error;
 use std::path::Path;
@@ -29,7 +29,8 @@ pub struct Stage {
 impl Stage {
     /// Loads what the options ask for. What could not be honoured, and what was added, is told on standard error.
     pub fn load(options: &Options) -> Result<Self, Box<dyn Error>> {
-        let mut scene = read(options)?;
+        let Loaded { mut scene, warnings, .. } = read(options)?;
+        tell(&warnings);
         if let Source::File(_) = &options.source {
             scene = choose_animation(scene, options.animation.as_deref())?;
         }
@@ -77,18 +78,20 @@ impl Stage {
 }
 
 /// The scene as it is, with all its animations.
-pub fn read(options: &Options) -> Result<Scene, Box<dyn Error>> {
-    match &options.source {
+pub fn read(options: &Options) -> Result<Loaded, Box<dyn Error>> {
+    let mut loaded = match &options.source {
         Source::BuiltIn(name) => {
             let animation = options.animation.as_deref().unwrap_or("all");
-            Ok(builtin::scene(name, animation).ok_or_else(|| Usage(format!("{name}: no such built-in scene")))?)
+            let scene = builtin::scene(name, animation);
+            let scene = scene.ok_or_else(|| Usage(format!("{name}: no such built-in scene")))?;
+            Loaded { scene, warnings: Vec::new(), details: Vec::new() }
         }
-        Source::File(path) => {
-            let loaded = scene::load(path)?;
-            tell(&loaded.warnings);
-            Ok(loaded.scene)
-        }
+        Source::File(path) => scene::load(path)?,
+    };
+    if options.cull {
+        loaded.scene.cull_back_faces();
     }
+    Ok(loaded)
 }
 
 /// Prints what an importer could not honour.

@@ -7,6 +7,9 @@
 #ifdef TEXTURES
 #import asvgf::texture::{sample_texture, exists}
 #endif
+#ifdef VERTEX_COLORS
+#import asvgf::texture::vertex_color
+#endif
 
 const PI: f32 = 3.14159265358979;
 
@@ -22,6 +25,8 @@ struct Surface {
 #ifdef SPECULAR
     // Reflectance at normal incidence.
     reflectance: vec3<f32>,
+    // Reflectance at grazing incidence.
+    edge: f32,
     // GGX width, the square of the perceptual roughness.
     alpha: f32,
 #endif
@@ -33,6 +38,11 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     var emission = m.emissive;
     var metallic = m.metallic;
     var roughness = m.roughness;
+    var specular = m.specular;
+    var edge = m.specular_edge;
+#ifdef VERTEX_COLORS
+    base *= vertex_color(v.row, weights).xyz;
+#endif
 #ifdef TEXTURES
     let base_texture = m.base_color_texture;
     if exists(base_texture) {
@@ -48,6 +58,16 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
         let texel = sample_texture(metallic_roughness_texture, v.row, weights, false);
         roughness *= texel.y;
         metallic *= texel.z;
+    }
+    let specular_color_texture = m.specular_color_texture;
+    if exists(specular_color_texture) {
+        specular *= sample_texture(specular_color_texture, v.row, weights, true).xyz;
+    }
+    let specular_texture = m.specular_texture;
+    if exists(specular_texture) {
+        let weight = sample_texture(specular_texture, v.row, weights, false).w;
+        specular *= weight;
+        edge *= weight;
     }
 #endif
 #endif
@@ -67,7 +87,9 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     s.emission = emission;
 #ifdef SPECULAR
     s.diffuse = base * (1.0 - metallic);
-    s.reflectance = mix(vec3(m.specular), base, metallic) * select(1.0, 0.0, (flags & UNLIT) != 0u);
+    let lit = select(1.0, 0.0, (flags & UNLIT) != 0u);
+    s.reflectance = mix(specular, base, metallic) * lit;
+    s.edge = mix(edge, 1.0, metallic) * lit;
     // Below this width a lobe is narrower than a float resolves.
     s.alpha = max(roughness * roughness, 1e-3);
 #else
@@ -88,9 +110,9 @@ fn demodulation(s: Surface) -> vec3<f32> {
 }
 
 #ifdef SPECULAR
-fn fresnel(f0: vec3<f32>, cosine: f32) -> vec3<f32> {
+fn fresnel(f0: vec3<f32>, edge: f32, cosine: f32) -> vec3<f32> {
     // Schlick 1994; without a mirror reflectance there is no grazing reflectance either.
-    let grazing = clamp(50.0 * max(max(f0.x, f0.y), f0.z), 0.0, 1.0);
+    let grazing = min(50.0 * max(max(f0.x, f0.y), f0.z), edge);
     let k = clamp(1.0 - cosine, 0.0, 1.0);
     let k2 = k * k;
     return f0 + (vec3(grazing) - f0) * (k2 * k2 * k);
@@ -111,7 +133,7 @@ fn smith(cosine: f32, alpha: f32) -> f32 {
 
 // Probability with which the specular lobe is sampled.
 fn specular_share(s: Surface) -> f32 {
-    let specular = luminance(fresnel(s.reflectance, max(dot(s.normal, s.view), 0.0)));
+    let specular = luminance(fresnel(s.reflectance, s.edge, max(dot(s.normal, s.view), 0.0)));
     let diffuse = luminance(s.diffuse);
     if specular <= 0.0 {
         return 0.0;
@@ -141,7 +163,7 @@ fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
     let half_vector = normalize(s.view + light);
     let nv = max(dot(s.normal, s.view), 1e-4);
     let nh = clamp(dot(s.normal, half_vector), 0.0, 1.0);
-    let f = fresnel(s.reflectance, dot(s.view, half_vector));
+    let f = fresnel(s.reflectance, s.edge, dot(s.view, half_vector));
     let d = distribution(nh, s.alpha);
     let lambda_view = smith(nv, s.alpha);
     // f·D·G₂ / (4 n·v n·l), with the cosine n·l already cancelled.

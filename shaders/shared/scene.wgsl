@@ -27,6 +27,8 @@ struct Scene {
     // Where rays start: the root of the one tree, or of the top level.
     root: u32,
     grid_step: vec3<f32>,
+    // Where the colours of the vertices begin in `attributes`.
+    color_first: u32,
 }
 
 @group(1) @binding(0) var<uniform> scene: Scene;
@@ -42,7 +44,8 @@ struct Scene {
 // Where the instances were in the last frame, three rows of an affine map each.
 @group(1) @binding(2) var<storage, read> placements_previous: array<vec4<f32>>;
 #endif
-// Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates.
+// Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates, then three
+// colours of four 16-bit numbers.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
 // Materials and lights, the structs below texel by texel.
 @group(1) @binding(5) var materials: texture_2d<u32>;
@@ -73,21 +76,29 @@ struct TextureUse {
 struct Material {
     base_color: vec4<f32>,
     emissive: vec3<f32>,
-    // Bit 0: emits from both faces. Bit 1: unlit.
+    // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: back faces do not exist. Bit 3: covers as much as its opacity.
     flags: u32,
     metallic: f32,
     roughness: f32,
-    // Reflectance of the dielectric coat at normal incidence.
-    specular: f32,
     // Opacity below which a point does not exist; 0 keeps all.
     cutoff: f32,
+    // Reflectance of the dielectric coat at grazing incidence.
+    specular_edge: f32,
+    // Reflectance of the dielectric coat at normal incidence.
+    specular: vec3<f32>,
     base_color_texture: TextureUse,
     metallic_roughness_texture: TextureUse,
     emissive_texture: TextureUse,
+    // Its alpha multiplies `specular` and `specular_edge`.
+    specular_texture: TextureUse,
+    // It multiplies `specular`.
+    specular_color_texture: TextureUse,
 }
 
 const TWO_SIDED_EMITTER: u32 = 1u;
 const UNLIT: u32 = 2u;
+const CULLED: u32 = 4u;
+const BLENDED: u32 = 8u;
 
 struct Light {
     // See light.wgsl.
@@ -147,14 +158,16 @@ fn texture_use(first: u32) -> TextureUse {
 
 // What of it is not used is not fetched.
 fn load_material(i: u32) -> Material {
-    let first = i * 12u;
+    let first = i * 19u;
     let emission = material_word(first + 1u);
     let numbers = bitcast<vec4<f32>>(material_word(first + 2u));
     return Material(
         bitcast<vec4<f32>>(material_word(first)),
         bitcast<vec3<f32>>(emission.xyz), emission.w,
         numbers.x, numbers.y, numbers.z, numbers.w,
-        texture_use(first + 3u), texture_use(first + 6u), texture_use(first + 9u),
+        bitcast<vec3<f32>>(material_word(first + 3u).xyz),
+        texture_use(first + 4u), texture_use(first + 7u), texture_use(first + 10u), texture_use(first + 13u),
+        texture_use(first + 16u),
     );
 }
 

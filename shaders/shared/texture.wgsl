@@ -1,6 +1,9 @@
 #define_import_path asvgf::texture
 
-#import asvgf::scene::{scene, image_word, attributes, load_material, geometry_word, TextureUse}
+#import asvgf::scene::{scene, image_word, attributes, load_material, geometry_word, TextureUse, CULLED, BLENDED}
+#ifdef ALPHA_BLEND
+#import asvgf::random::hash
+#endif
 
 // Images lie in one buffer or texture, because not every GPU has arrays of differently sized textures.
 
@@ -59,17 +62,74 @@ fn exists(image: TextureUse) -> bool {
     return (image.mode & 0x80000000u) != 0u;
 }
 
-// Whether an alpha mask cuts this point of a triangle away.
-fn is_hole(row: u32, barycentrics: vec2<f32>) -> bool {
+#ifdef VERTEX_COLORS
+// Colour and opacity, interpolated between the vertices.
+fn vertex_color(row: u32, barycentrics: vec2<f32>) -> vec4<f32> {
+    let first = row * scene.attribute_stride + scene.color_first;
+    let a = corner_color(first);
+    let b = corner_color(first + 2u);
+    let c = corner_color(first + 4u);
+    return a + barycentrics.x * (b - a) + barycentrics.y * (c - a);
+}
+
+fn corner_color(first: u32) -> vec4<f32> {
+    return vec4(unpack2x16unorm(attributes[first]), unpack2x16unorm(attributes[first + 1u]));
+}
+#endif
+
+#ifdef ALPHA_BLEND
+// Opacity from which a blended surface stops a ray. Below 0 it is a random number for each surface that the ray meets, so that a
+// surface covers as much as its opacity on average.
+var<private> coverage: f32 = 0.5;
+// Seeds these numbers: a ray that is repeated with its seed meets the same surfaces.
+var<private> coverage_seed: u32 = 0u;
+// Whether a ray has met a surface that neither lets everything through nor nothing.
+var<private> is_blended: bool = false;
+
+// Has the rays that follow meet blended surfaces at random.
+fn cover_at_random(seed: u32) {
+    coverage = -1.0;
+    coverage_seed = hash(seed ^ 0x9e3779b9u);
+}
+
+// Has the rays that follow meet all blended surfaces of at least this opacity.
+fn cover_from(opacity: f32) {
+    coverage = opacity;
+}
+
+fn passes_through(opacity: f32, row: u32, instance: u32) -> bool {
+    if opacity <= 0.0 || opacity >= 1.0 {
+        return opacity <= 0.0;
+    }
+    is_blended = true;
+    let number = f32(hash(coverage_seed ^ hash(row ^ hash(instance))) >> 8u) * (1.0 / 16777216.0);
+    return opacity <= select(coverage, number, coverage < 0.0);
+}
+#endif
+
+// Whether a ray goes through this point of a triangle, which it meets from the back or from the front: because of its opacity, or
+// because the material has no back faces.
+fn is_hole(row: u32, instance: u32, barycentrics: vec2<f32>, back: bool) -> bool {
     let material = load_material(geometry_word(row * 3u).w);
+    if back && (material.flags & CULLED) != 0u {
+        return true;
+    }
     if material.cutoff <= 0.0 {
         return false;
     }
     var opacity = material.base_color.w;
+#ifdef VERTEX_COLORS
+    opacity *= vertex_color(row, barycentrics).w;
+#endif
 #ifdef TEXTURES
     let image = material.base_color_texture;
     if exists(image) {
         opacity *= sample_texture(image, row, barycentrics, false).w;
+    }
+#endif
+#ifdef ALPHA_BLEND
+    if (material.flags & BLENDED) != 0u {
+        return passes_through(opacity, row, instance);
     }
 #endif
     return opacity < material.cutoff;

@@ -61,6 +61,16 @@ fn intersect_triangle(origin: vec3<f32>, direction: vec3<f32>, triangle: u32, li
     return intersect(origin, direction, a, edge_b, edge_c, limit);
 }
 
+#ifdef ALPHA_MASK
+// Whether a ray meets the back of a triangle, in the space of its mesh, where a placement that mirrors does not matter.
+fn meets_back(row: u32, direction: vec3<f32>) -> bool {
+    let a = bitcast<vec3<f32>>(geometry_word(row * 3u).xyz);
+    let edge_b = bitcast<vec3<f32>>(geometry_word(row * 3u + 1u).xyz) - a;
+    let edge_c = bitcast<vec3<f32>>(geometry_word(row * 3u + 2u).xyz) - a;
+    return dot(cross(edge_b, edge_c), direction) > 0.0;
+}
+#endif
+
 // References, as src/scene/bvh.rs makes them: an inner node's number, or a leaf: LEAF, its count and its first row.
 const LEAF: u32 = 0x80000000u;
 const COUNT_SHIFT: u32 = 27u;
@@ -132,7 +142,11 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
             var closer = t.x < hit.distance;
 #ifdef ALPHA_MASK
             if closer {
-                closer = !is_hole(row, t.yz);
+                #ifdef INSTANCED
+                closer = !is_hole(row, instance, t.yz, meets_back(row, direction));
+#else
+                closer = !is_hole(row, 0u, t.yz, meets_back(row, direction));
+#endif
             }
 #endif
             if closer {

@@ -5,7 +5,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use exr::meta::MetaData;
-use exr::meta::attribute::AttributeValue;
+use exr::meta::attribute::{AttributeValue, Chromaticities};
 use exr::meta::header::{ImageAttributes, LayerAttributes};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatImage, FlatSamples, Image, IntegerBounds, Layer, ReadChannels as _,
@@ -127,6 +127,10 @@ impl ExrFile {
             exr::error::Error::NotSupported(what) => error(format!("holds what is not read: {what}")),
             cause => error(format!("is no EXR file, or is damaged or cut short: {cause}")),
         };
+        if let Some(number) = unknown_compression(&bytes) {
+            let name = if number < 12 { "HTJ2K" } else { "unknown" };
+            return Err(error(format!("is compressed with {name} (number {number}), which is not read")));
+        }
         let meta = MetaData::read_from_buffered(bytes.as_slice(), false).map_err(broken)?;
         let mut total = 0_u64;
         let mut window: Option<Window> = None;
@@ -185,6 +189,12 @@ impl ExrFile {
     pub fn display_window(&self) -> Window {
         let bounds = self.image.attributes.display_window;
         window_of(bounds.position, bounds.size)
+    }
+
+    /// Where red, green, blue and white lie in the chromaticity diagram (CIE 1931 x and y), if the file says so.
+    pub fn chromaticities(&self) -> Option<[[f32; 2]; 4]> {
+        let Chromaticities { red, green, blue, white } = self.image.attributes.chromaticities?;
+        Some([red, green, blue, white].map(|Vec2(x, y)| [x, y]))
     }
 
     /// Width over height of a pixel.
@@ -311,6 +321,16 @@ impl ExrFile {
         };
         parts.flat_map(of_part).collect()
     }
+}
+
+/// The number of a compression that is newer than the reader, which takes such a file for damaged.
+fn unknown_compression(bytes: &[u8]) -> Option<u8> {
+    const ATTRIBUTE: &[u8] = b"compression\0compression\0\x01\0\0\0";
+    const DWAB: u8 = 9;
+    // The header comes first.
+    let start = &bytes[..bytes.len().min(1 << 16)];
+    let at = start.windows(ATTRIBUTE.len()).position(|window| window == ATTRIBUTE)?;
+    start.get(at + ATTRIBUTE.len()).copied().filter(|&number| number > DWAB)
 }
 
 /// The name of a channel with the name of its part in front, where it does not have that already.

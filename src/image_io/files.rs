@@ -11,7 +11,7 @@ use image::Limits;
 use crate::image_io::ImageError;
 
 /// Largest width and height that is read or written.
-pub(super) const MAX_SIDE: usize = 16_384;
+pub(crate) const MAX_SIDE: usize = 16_384;
 
 /// Largest file that is read, and most memory that the samples of one image may take.
 pub(super) const MAX_BYTES: u64 = 1 << 32;

@@ -163,7 +163,9 @@ const GEOMETRY: &[Feature] = &[
     Feature::Textures,
     Feature::FoldedImages,
     Feature::ShadingNormals,
+    Feature::VertexColors,
     Feature::AlphaMask,
+    Feature::AlphaBlend,
     Feature::FewTriangles,
 ];
 

@@ -29,10 +29,14 @@ features! {
     FoldedImages,
     /// Interpolated normals.
     ShadingNormals,
+    /// Colours at the vertices.
+    VertexColors,
     /// GGX lobe.
     Specular,
-    /// Opacity test during traversal.
+    /// Test of the opacity and of the facing during traversal.
     AlphaMask,
+    /// Surfaces are met as often as their opacity says.
+    AlphaBlend,
     /// Every triangle is tested instead of a tree.
     FewTriangles,
     /// Any light to sample.

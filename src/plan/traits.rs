@@ -11,10 +11,14 @@ pub struct Traits {
     pub folded_images: bool,
     /// Meshes have interpolated normals.
     pub shading_normals: bool,
+    /// Meshes have colours at their vertices.
+    pub vertex_colors: bool,
     /// Some surface is not purely Lambertian.
     pub specular: bool,
-    /// Some material is cut out by its opacity.
+    /// Some material is cut out by its opacity, or has no back faces.
     pub alpha_mask: bool,
+    /// Some material covers as much as its opacity.
+    pub alpha_blend: bool,
     /// Triangles emit light.
     pub emitters: bool,
     /// There are lights without area.
@@ -41,6 +45,7 @@ impl Traits {
             textures: true,
             specular: true,
             alpha_mask: true,
+            alpha_blend: true,
             emitters: true,
             punctual_lights: true,
             unlit: true,

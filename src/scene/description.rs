@@ -42,6 +42,8 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates, one per vertex, or empty: set 0 and set 1.
     pub uvs: [Vec<[f32; 2]>; 2],
+    /// Linear colour and opacity, each 0…1, one per vertex, or empty: then white. They multiply the base colour.
+    pub colors: Vec<[f32; 4]>,
     /// Vertex indices, three per triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
     /// Index into [`Scene::materials`].
@@ -73,8 +75,17 @@ pub struct Material {
     pub double_sided: bool,
     /// The base colour is shown as it is, without any light (KHR_materials_unlit); it lights nothing.
     pub unlit: bool,
-    /// Normal-incidence reflectance of the dielectric part: 0.04 in glTF, 0 for a purely Lambertian surface.
-    pub specular: f32,
+    /// Normal-incidence reflectance (F₀) of the dielectric part, each 0…1: 0.04 for an index of refraction of 1.5, 0 for a
+    /// purely Lambertian surface.
+    pub specular: [f32; 3],
+    /// Reflectance of the dielectric part at grazing incidence (F₉₀), 0…1.
+    pub specular_edge: f32,
+    /// Alpha multiplies `specular` and `specular_edge` (KHR_materials_specular).
+    pub specular_texture: Option<Texture>,
+    /// Colour (sRGB) multiplies `specular` (KHR_materials_specular).
+    pub specular_color_texture: Option<Texture>,
+    /// Back faces do not exist, neither for the camera nor for light, as rasterizers draw them: for outlines made of hulls.
+    pub culled: bool,
 }
 
 impl Default for Material {
@@ -92,8 +103,27 @@ impl Default for Material {
             alpha: Alpha::Opaque,
             double_sided: false,
             unlit: false,
-            specular: 0.0,
+            specular: [0.0; 3],
+            specular_edge: 1.0,
+            specular_texture: None,
+            specular_color_texture: None,
+            culled: false,
         }
+    }
+}
+
+impl Material {
+    /// All textures that there are, each with the name of its field.
+    pub(crate) fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
+        [
+            ("base_color_texture", self.base_color_texture),
+            ("metallic_roughness_texture", self.metallic_roughness_texture),
+            ("emissive_texture", self.emissive_texture),
+            ("specular_texture", self.specular_texture),
+            ("specular_color_texture", self.specular_color_texture),
+        ]
+        .into_iter()
+        .filter_map(|(name, texture)| Some((name, texture?)))
     }
 }
 
@@ -105,6 +135,9 @@ pub enum Alpha {
     Opaque,
     /// Points whose opacity is below the cutoff do not exist.
     Mask(f32),
+    /// The surface covers as much of what lies behind as its opacity: a ray meets it with that probability. Noise is higher
+    /// there, and light is filtered together with the colours.
+    Blend,
 }
 
 /// A use of an [`Image`] by a material.
@@ -245,6 +278,14 @@ pub struct Environment {
     pub height: u32,
     /// `width · height` linear radiances, finite and ≥ 0.
     pub radiance: Vec<[f32; 3]>,
+}
+
+impl Scene {
+    /// Takes the back faces of all materials that are not [`double_sided`](Material::double_sided) away, as rasterizers do: for
+    /// models whose outlines are hulls turned inside out, and for rooms that are looked into from outside.
+    pub fn cull_back_faces(&mut self) {
+        self.materials.iter_mut().for_each(|material| material.culled = !material.double_sided);
+    }
 }
 
 impl Environment {

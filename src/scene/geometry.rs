@@ -88,12 +88,15 @@ pub(super) struct Geometry {
     pub depth: u32,
 }
 
-/// Where a triangle's words lie in the attributes: three normals, then three (u, v) per set, each only if the scene needs it.
+/// Where a triangle's words lie in the attributes: three normals, then three (u, v) per set, then three
+/// colours, each only if the scene needs it.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Layout {
     pub stride: usize,
     pub normals: bool,
     pub uv: [Option<usize>; 2],
+    /// Four numbers of 16 bits a corner.
+    pub color: Option<usize>,
 }
 
 /// A group after its tree was built.
@@ -109,11 +112,7 @@ pub(super) struct Built {
 impl Geometry {
     pub fn new(scene: &Scene, first_node: u32) -> Self {
         let used = |set: usize| {
-            let reads = |m: &Material| {
-                [m.base_color_texture, m.metallic_roughness_texture, m.emissive_texture]
-                    .iter()
-                    .any(|t| t.is_some_and(|t| t.uv_set == set))
-            };
+            let reads = |m: &Material| m.textures().any(|(_, texture)| texture.uv_set == set);
             scene.meshes.iter().any(|mesh| reads(&scene.materials[mesh.material]))
         };
         let mut layout = Layout { normals: scene.meshes.iter().any(|m| !m.normals.is_empty()), ..Default::default() };
@@ -123,6 +122,10 @@ impl Geometry {
                 layout.uv[set] = Some(layout.stride);
                 layout.stride += 6;
             }
+        }
+        if scene.meshes.iter().any(|mesh| !mesh.colors.is_empty()) {
+            layout.color = Some(layout.stride);
+            layout.stride += 6;
         }
         Self { first_node, nodes: Vec::new(), rows: Vec::new(), attributes: Vec::new(), layout, depth: 0 }
     }
@@ -170,6 +173,12 @@ impl Geometry {
                 }
             }
         }
+        if self.layout.color.is_some() {
+            for corner in corners {
+                let [r, g, b, a] = mesh.colors.get(corner as usize).copied().unwrap_or([1.0; 4]);
+                self.attributes.extend([pack_unorm([r, g]), pack_unorm([b, a])]);
+            }
+        }
     }
 }
 
@@ -193,14 +202,13 @@ pub(super) fn traits(scene: &Scene, layout: Layout) -> Traits {
             .filter(move |(i, _)| placed.contains(i))
             .map(|(_, m)| &scene.materials[m.material])
     };
-    let textures = |m: &Material| {
-        m.base_color_texture.is_some() || m.metallic_roughness_texture.is_some() || m.emissive_texture.is_some()
-    };
     Traits {
-        textures: used().any(textures),
+        textures: used().any(|m| m.textures().next().is_some()),
         shading_normals: layout.normals,
-        specular: used().any(|m| !m.unlit && (m.specular > 0.0 || m.metallic > 0.0)),
-        alpha_mask: used().any(|m| m.alpha != Alpha::Opaque),
+        vertex_colors: layout.color.is_some(),
+        specular: used().any(|m| !m.unlit && (m.specular != [0.0; 3] || m.metallic > 0.0)),
+        alpha_blend: used().any(|m| m.alpha == Alpha::Blend),
+        alpha_mask: used().any(|m| m.alpha != Alpha::Opaque || m.culled),
         emitters: used().any(is_emitter),
         unlit: used().any(|m| m.unlit),
         ..Default::default()
@@ -214,4 +222,10 @@ fn pack_octahedral(n: Vec3) -> u32 {
     let folded = if n.z < 0.0 { (1.0 - Vec2::new(p.y, p.x).abs()) * sign } else { p };
     let q = ((folded * 0.5 + 0.5) * 65535.0).round().clamp(Vec2::ONE, Vec2::splat(65535.0));
     q.x as u32 | (q.y as u32) << 16
+}
+
+/// Two numbers within 0…1 as `unpack2x16unorm` of WGSL reads them.
+fn pack_unorm(pair: [f32; 2]) -> u32 {
+    let [low, high] = pair.map(|x| (x.clamp(0.0, 1.0) * 65535.0).round() as u32);
+    low | high << 16
 }

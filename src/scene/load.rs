@@ -3,6 +3,8 @@
 pub(crate) mod decode;
 pub(crate) mod files;
 pub(crate) mod folder;
+mod ktx2;
+pub(crate) mod normals;
 pub(crate) mod report;
 
 use std::collections::BTreeMap;
@@ -16,8 +18,11 @@ use files::Files;
 pub struct Loaded {
     /// The scene; it passes [`Scene::validate`].
     pub scene: Scene,
-    /// Everything that was left out or replaced, in the order in which it was met.
+    /// Everything that was left out or replaced, in the order in which it was met. A reason that many elements share is
+    /// given once, for the first of them.
     pub warnings: Vec<Warning>,
+    /// The same for each element, 65 536 at most: what a listing of a file shows beside its elements.
+    pub details: Vec<Warning>,
 }
 
 /// Reads a scene file. The extension of its name decides how: `gltf` and `glb` (glTF 2.0, with the feature `gltf`),

@@ -13,11 +13,15 @@ pub(super) struct GpuMaterial {
     flags: u32,
     metallic: f32,
     roughness: f32,
-    specular: f32,
     cutoff: f32,
+    specular_edge: f32,
+    specular: [f32; 3],
+    pad: u32,
     base_color_texture: GpuTexture,
     metallic_roughness_texture: GpuTexture,
     emissive_texture: GpuTexture,
+    specular_texture: GpuTexture,
+    specular_color_texture: GpuTexture,
 }
 
 /// The materials, as bright as a pose's emission makes them.
@@ -29,17 +33,26 @@ pub(super) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &
         .map(|(m, factor)| GpuMaterial {
             base_color: m.base_color,
             emissive: [0, 1, 2].map(|c| m.emissive[c] * factor[c]),
-            flags: u32::from(m.double_sided) | u32::from(m.unlit) << 1,
+            flags: u32::from(m.double_sided)
+                | u32::from(m.unlit) << 1
+                | u32::from(m.culled) << 2
+                | u32::from(m.alpha == Alpha::Blend) << 3,
             metallic: m.metallic,
             roughness: m.roughness,
-            specular: m.specular,
             cutoff: match m.alpha {
                 Alpha::Opaque => 0.0,
                 Alpha::Mask(cutoff) => cutoff,
+                // Not 0, which skips the test.
+                Alpha::Blend => 0.5,
             },
+            specular_edge: m.specular_edge,
+            specular: m.specular,
+            pad: 0,
             base_color_texture: texture(m.base_color_texture),
             metallic_roughness_texture: texture(m.metallic_roughness_texture),
             emissive_texture: texture(m.emissive_texture),
+            specular_texture: texture(m.specular_texture),
+            specular_color_texture: texture(m.specular_color_texture),
         })
         .collect()
 }
@@ -51,8 +64,9 @@ mod tests {
 
     #[test]
     fn a_material_lies_where_the_shaders_read_it() {
-        let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, specular, cutoff,
-            base_color_texture, metallic_roughness_texture, emissive_texture);
+        let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, cutoff,
+            specular_edge, specular, base_color_texture, metallic_roughness_texture, emissive_texture,
+            specular_texture, specular_color_texture);
         assert_layout("Material", material, size_of::<GpuMaterial>());
     }
 }

@@ -97,7 +97,7 @@ struct Header {
     grid_base: [f32; 3],
     root: u32,
     grid_step: [f32; 3],
-    pad: u32,
+    color_first: u32,
 }
 
 impl Header {
@@ -194,6 +194,7 @@ impl GpuScene {
             attribute_stride: layout.stride as u32,
             uv0: layout.uv[0].unwrap_or(0) as u32,
             uv1: layout.uv[1].unwrap_or(0) as u32,
+            color_first: layout.color.unwrap_or(0) as u32,
             ..Default::default()
         };
         let sky = match &scene.environment {
@@ -474,7 +475,7 @@ mod tests {
     fn the_scene_lies_where_the_shaders_read_it() {
         let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_width,
             environment_height, environment_run, environment_cells, attribute_stride, uv0 as "uv_first",
-            uv1 as "uv_second", environment_density, grid_base, root, grid_step);
+            uv1 as "uv_second", environment_density, grid_base, root, grid_step, color_first);
         assert_layout("Scene", header, size_of::<Header>());
         let light = fields!(GpuLight: kind, alias as "alias_index", threshold, pmf, position, triangle, axis, instance,
             intensity, range, spot_scale, spot_offset);

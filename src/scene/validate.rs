@@ -41,7 +41,12 @@ impl Scene {
     fn check_mesh(&self, mesh: &Mesh, element: &str) -> Result<(), Broken> {
         index(mesh.material, self.materials.len(), || format!("{element}.material"))?;
         let vertices = mesh.positions.len();
-        let optional = [("normals", mesh.normals.len()), ("uvs[0]", mesh.uvs[0].len()), ("uvs[1]", mesh.uvs[1].len())];
+        let optional = [
+            ("normals", mesh.normals.len()),
+            ("uvs[0]", mesh.uvs[0].len()),
+            ("uvs[1]", mesh.uvs[1].len()),
+            ("colors", mesh.colors.len()),
+        ];
         for (name, length) in optional {
             rule(
                 length == 0 || length == vertices,
@@ -53,6 +58,9 @@ impl Scene {
         all_finite(&mesh.normals, || format!("{element}.normals"))?;
         all_finite(&mesh.uvs[0], || format!("{element}.uvs[0]"))?;
         all_finite(&mesh.uvs[1], || format!("{element}.uvs[1]"))?;
+        for (vertex, color) in mesh.colors.iter().enumerate() {
+            color.iter().try_for_each(|&channel| unit(channel, || format!("{element}.colors[{vertex}]")))?;
+        }
         for (triangle, corners) in mesh.triangles.iter().enumerate() {
             for &corner in corners {
                 index(corner as usize, vertices, || format!("{element}.triangles[{triangle}]"))?;
@@ -67,20 +75,16 @@ impl Scene {
         }
         unit(material.metallic, || format!("{element}.metallic"))?;
         unit(material.roughness, || format!("{element}.roughness"))?;
-        unit(material.specular, || format!("{element}.specular"))?;
+        for channel in material.specular {
+            unit(channel, || format!("{element}.specular"))?;
+        }
+        unit(material.specular_edge, || format!("{element}.specular_edge"))?;
         non_negative(&material.emissive, || format!("{element}.emissive"))?;
         if let Alpha::Mask(cutoff) = material.alpha {
             non_negative(&[cutoff], || format!("{element}.alpha"))?;
         }
-        let textures = [
-            ("base_color_texture", &material.base_color_texture),
-            ("metallic_roughness_texture", &material.metallic_roughness_texture),
-            ("emissive_texture", &material.emissive_texture),
-        ];
-        for (name, texture) in textures {
-            if let Some(texture) = texture {
-                self.check_texture(texture, &format!("{element}.{name}"))?;
-            }
+        for (name, texture) in material.textures() {
+            self.check_texture(&texture, &format!("{element}.{name}"))?;
         }
         Ok(())
     }

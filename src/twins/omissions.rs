@@ -14,8 +14,10 @@ const ALL: Traits = Traits {
     textures: true,
     folded_images: false,
     shading_normals: true,
+    vertex_colors: true,
     specular: true,
     alpha_mask: true,
+    alpha_blend: true,
     emitters: true,
     punctual_lights: true,
     environment: true,
@@ -85,6 +87,16 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "world_to_object",
     ][..];
     let images = &["exists", "sample_texture", "srgb_to_linear", "texel", "texture_coordinates", "wrap"][..];
+    let opacity = &[
+        "cover_at_random",
+        "coverage",
+        "coverage_seed",
+        "is_blended",
+        "is_hole",
+        "meets_back",
+        "passes_through",
+        "start_of_path",
+    ][..];
     let sky = &[
         "environment",
         "environment_density",
@@ -93,12 +105,17 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "texel_radiance",
         "unpack_rgb",
     ][..];
-    let cases: [(Traits, &[&str]); 8] = [
+    let cases: [(Traits, &[&str]); 10] = [
         (Traits { instanced: false, ..ALL }, moving),
         (Traits { textures: false, ..ALL }, images),
         (Traits { shading_normals: false, ..ALL }, &["octahedral", "transform_normal", "unpack_octahedral"]),
+        (Traits { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
         (Traits { specular: false, ..ALL }, &["distribution", "fresnel", "smith", "specular_share"]),
-        (Traits { alpha_mask: false, ..ALL }, &["is_hole"]),
+        (Traits { alpha_mask: false, alpha_blend: false, ..ALL }, opacity),
+        (
+            Traits { alpha_blend: false, ..ALL },
+            &["cover_at_random", "coverage", "coverage_seed", "is_blended", "passes_through", "start_of_path"],
+        ),
         (Traits { emitters: false, ..ALL }, &["emitter_density"]),
         (Traits { punctual_lights: false, ..ALL }, &[]),
         (Traits { environment: false, ..ALL }, sky),

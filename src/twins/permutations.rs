@@ -28,11 +28,15 @@ fn noop_device() -> (Device, Queue) {
 
 /// All combinations: at some 150 shaders a second they are checked in a quarter of a minute.
 fn traits() -> Vec<Traits> {
-    (0_u32..2048)
+    (0_u32..8192)
         // Only images may be folded. It changes one function, and is tried with a part of the rest.
-        .filter(|bits| bits >> 10 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1_0110_0000 == 0)
+        .filter(|bits| bits >> 12 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1101_0110_0000 == 0)
         // Where each triangle is tested, there is no alpha mask.
         .filter(|bits| bits >> 4 & 1 == 0 || bits >> 9 & 1 == 0)
+        // Colours of vertices have nothing in common with the kinds of light.
+        .filter(|bits| bits >> 10 & 1 == 0 || bits >> 5 & 15 == 15)
+        // A material that is blended has an opacity to test; the normals have nothing in common with it.
+        .filter(|bits| bits >> 11 & 1 == 0 || bits >> 4 & 1 == 1 && bits >> 2 & 3 == 3)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
             Traits {
@@ -46,7 +50,9 @@ fn traits() -> Vec<Traits> {
                 environment: bit(7),
                 unlit: bit(8),
                 few_triangles: bit(9),
-                folded_images: bit(10),
+                vertex_colors: bit(10),
+                alpha_blend: bit(11),
+                folded_images: bit(12),
                 ..Default::default()
             }
         })

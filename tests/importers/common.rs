@@ -120,18 +120,26 @@ impl Gltf {
     pub fn text(&self) -> String {
         let mut json = self.json.clone();
         if json["buffers"].is_null() && !self.bytes.is_empty() {
-            let data = base64::engine::general_purpose::STANDARD.encode(&self.bytes);
-            let uri = format!("data:application/octet-stream;base64,{data}");
-            json["buffers"] = json!([{"byteLength": self.bytes.len(), "uri": uri}]);
+            json["buffers"] = json!([{"byteLength": self.bytes.len(), "uri": self.data_uri()}]);
         }
+        json.to_string()
+    }
+
+    pub fn data_uri(&self) -> String {
+        let data = base64::engine::general_purpose::STANDARD.encode(&self.bytes);
+        format!("data:application/octet-stream;base64,{data}")
+    }
+
+    /// The text of the file in a GLB file.
+    pub fn text_of_glb(&self) -> String {
+        let mut json = self.json.clone();
+        json["buffers"] = json!([{"byteLength": self.bytes.len()}]);
         json.to_string()
     }
 
     /// The same as a GLB file.
     pub fn glb(&self) -> Vec<u8> {
-        let mut json = self.json.clone();
-        json["buffers"] = json!([{"byteLength": self.bytes.len()}]);
-        let mut json = json.to_string().into_bytes();
+        let mut json = self.text_of_glb().into_bytes();
         json.resize(json.len().next_multiple_of(4), b' ');
         let mut binary = self.bytes.clone();
         binary.resize(binary.len().next_multiple_of(4), 0);

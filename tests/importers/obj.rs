@@ -34,7 +34,7 @@ fn polygons_are_triangulated() {
     let pentagon = read(&format!("{SQUARE}v -0.5 0.5 0\nf 1 2 3 4 5\n"), "").unwrap();
     assert_eq!((pentagon.scene.triangle_count(), area(&pentagon)), (3, 1.25));
     let material = &pentagon.scene.materials[pentagon.scene.meshes[0].material];
-    assert_eq!((material.base_color, material.metallic, material.specular), ([0.8, 0.8, 0.8, 1.0], 0.0, 0.0));
+    assert_eq!((material.base_color, material.metallic, material.specular), ([0.8, 0.8, 0.8, 1.0], 0.0, [0.0; 3]));
     assert!(material.double_sided);
 }
 
@@ -180,17 +180,17 @@ fn several_libraries_in_one_statement_and_names_with_spaces() {
 fn diffuse_glossy_metallic_and_emitting_materials() {
     let diffuse = &material("Kd 0.1 0.2 0.3\nKe 17 12 4\nKs 0 0 0\nNs 10\n").scene.materials[0];
     assert_eq!((diffuse.base_color, diffuse.emissive), ([0.1, 0.2, 0.3, 1.0], [17.0, 12.0, 4.0]));
-    assert_eq!((diffuse.metallic, diffuse.specular), (0.0, 0.0));
+    assert_eq!((diffuse.metallic, diffuse.specular), (0.0, [0.0; 3]));
 
     let glossy = &material("Kd 0.5 0.5 0.5\nKs 0.2 0.4 0.1\nNs 30\nillum 2\n").scene.materials[0];
-    assert_eq!((glossy.metallic, glossy.specular), (0.0, 0.4));
+    assert_eq!((glossy.metallic, glossy.specular), (0.0, [0.2, 0.4, 0.1]));
     assert_close(&[glossy.roughness], &[(2.0_f32 / 32.0).powf(0.25)], 1e-6);
 
     let metal = &material("Kd 0 0 0\nKs 0.725 0.71 0.68\nNs 200\n").scene.materials[0];
     assert_eq!((metal.metallic, metal.base_color), (1.0, [0.725, 0.71, 0.68, 1.0]));
 
     let matte = &material("Kd 0.5\nKs 0.9 0.9 0.9\nillum 1\n").scene.materials[0];
-    assert_eq!(matte.specular, 0.0);
+    assert_eq!(matte.specular, [0.0; 3]);
 }
 
 #[test]

@@ -71,7 +71,7 @@ fn every_rule_is_checked() {
     broken(|scene| scene.materials[0].base_color[3] = 1.5, "materials[0].base_color", "1.5");
     broken(|scene| scene.materials[0].metallic = -0.5, "materials[0].metallic", "0…1");
     broken(|scene| scene.materials[0].roughness = f32::NAN, "materials[0].roughness", "NaN");
-    broken(|scene| scene.materials[0].specular = 2.0, "materials[0].specular", "2");
+    broken(|scene| scene.materials[0].specular[1] = 2.0, "materials[0].specular", "2");
     broken(|scene| scene.materials[0].emissive[0] = -1.0, "materials[0].emissive", "-1");
     broken(|scene| scene.materials[0].emissive[0] = f32::INFINITY, "materials[0].emissive", "inf");
     broken(|scene| scene.materials[0].alpha = Alpha::Mask(f32::NAN), "materials[0].alpha", "NaN");

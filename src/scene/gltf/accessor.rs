@@ -20,6 +20,7 @@ pub(super) const REAL: &[ComponentType] =
 
 /// The elements of an accessor, whose place in the file has been checked.
 pub(super) struct Elements<'a> {
+    shape: Type,
     count: usize,
     component: ComponentType,
     normalized: bool,
@@ -75,7 +76,22 @@ impl<'a> Elements<'a> {
         };
         // Both cases above have bounded the count by the size of the file or by a constant.
         let count = usize::try_from(count).map_err(|_| fault(format!("{count} elements are too many")))?;
-        Ok(Self { count, component, normalized: accessor.normalized, dense, sparse })
+        Ok(Self { shape, count, component, normalized: accessor.normalized, dense, sparse })
+    }
+
+    /// Whether the elements have this shape.
+    pub fn has_shape(&self, shape: Type) -> bool {
+        self.shape == shape
+    }
+
+    /// Whether integers stand for themselves and not for 0…1 or −1…1.
+    pub fn is_whole(&self) -> bool {
+        !self.normalized && self.component != ComponentType::F32
+    }
+
+    /// An element as numbers, where integers are normalised whatever the file says.
+    pub fn normalized<const N: usize>(&self, index: usize) -> [f32; N] {
+        self.numbers(index, true)
     }
 
     /// How many elements there are.
@@ -85,13 +101,28 @@ impl<'a> Elements<'a> {
 
     /// An element as numbers; normalised integers become 0…1 or −1…1. Zeros past the end.
     pub fn vector<const N: usize>(&self, index: usize) -> [f32; N] {
+        self.numbers(index, self.normalized)
+    }
+
+    fn numbers<const N: usize>(&self, index: usize, normalized: bool) -> [f32; N] {
         let mut vector = [0.0; N];
         if let Some(bytes) = self.bytes(index) {
             for (number, bytes) in vector.iter_mut().zip(bytes.chunks_exact(self.component.size())) {
-                *number = real(bytes, self.component, self.normalized);
+                *number = real(bytes, self.component, normalized);
             }
         }
         vector
+    }
+
+    /// `N` unsigned integers. Zeros past the end.
+    pub fn integers<const N: usize>(&self, index: usize) -> [u32; N] {
+        let mut integers = [0; N];
+        if let Some(bytes) = self.bytes(index) {
+            for (integer, bytes) in integers.iter_mut().zip(bytes.chunks_exact(self.component.size())) {
+                *integer = unsigned(bytes);
+            }
+        }
+        integers
     }
 
     /// A single unsigned integer. Zero past the end.
@@ -141,7 +172,9 @@ impl<'a> Strided<'a> {
         user: &str,
     ) -> Result<Self, Unopened> {
         let (description, bytes) = source.view(view, user).map_err(Unopened::View)?;
+        // A stride of 0 is that of OpenGL: no gaps.
         let stride = description.byte_stride.map_or(size, |stride| stride.0);
+        let stride = if stride == 0 { size } else { stride };
         if stride < size {
             return Err(Unopened::Reason(format!("elements of {size} bytes do not fit a stride of {stride}")));
         }

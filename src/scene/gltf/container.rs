@@ -1,14 +1,24 @@
 //! From bytes to JSON: the GLB container, the version and the extensions of a file.
 
+use std::borrow::Cow;
+
 use gltf::json::Root;
 use serde_json::Value;
 
+use super::mend::mend;
+use super::text::tidy;
 use crate::scene::load::report::{Fault, Report};
 
 /// Extensions that are honoured.
-const READ: [&str; 5] = [
+const READ: [&str; 11] = [
+    "EXT_mesh_gpu_instancing",
+    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
@@ -23,7 +33,7 @@ pub(super) struct Container<'a> {
 
 /// Takes a `.gltf` or `.glb` file apart, whatever its name, and checks that it can be read at all.
 pub(super) fn open<'a>(bytes: &'a [u8], report: &mut Report) -> Result<Container<'a>, Fault> {
-    let (json, binary) = if bytes.starts_with(b"glTF") { split(bytes)? } else { (bytes, None) };
+    let (json, binary) = if bytes.starts_with(b"glTF") { split(bytes, report)? } else { (bytes, None) };
     let root = parse(json, report)?;
     check_version(&root)?;
     check_extensions(&root, report)?;
@@ -31,7 +41,7 @@ pub(super) fn open<'a>(bytes: &'a [u8], report: &mut Report) -> Result<Container
 }
 
 /// The JSON chunk and the binary chunk of a GLB file.
-fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
+fn split<'a>(bytes: &'a [u8], report: &mut Report) -> Result<(&'a [u8], Option<&'a [u8]>), Fault> {
     let fault = |reason: String| Fault::new("GLB header", reason);
     let word = |at: usize| {
         let word = bytes.get(at..).and_then(|rest| rest.first_chunk::<4>());
@@ -42,13 +52,11 @@ fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     if version != 2 {
         return Err(fault(format!("version {version}; only 2 is read")));
     }
-    if length > bytes.len() {
-        return Err(fault(format!("announces {length} bytes; the file has {}", bytes.len())));
-    }
 
+    let is_chunk = |at: usize| matches!(bytes.get(at + 4..at + 8), Some(b"JSON" | b"BIN\0"));
     let mut chunks = Vec::new();
     let mut at = 12;
-    while at < length {
+    while at < length.min(bytes.len()) {
         let size = word(at)? as usize;
         let kind = word(at + 4)?.to_le_bytes();
         let start = at + 8;
@@ -56,54 +64,83 @@ fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
             Fault::new(format!("GLB chunk {}", chunks.len()), format!("{size} bytes from {start} on are past the end"))
         })?;
         chunks.push((kind, chunk));
-        at = start + size.next_multiple_of(4);
+        // Some writers leave the padding out.
+        let unpadded = start + size;
+        at = if is_chunk(unpadded) { unpadded } else { start + size.next_multiple_of(4) };
     }
     let json = chunks.first().filter(|(kind, _)| kind == b"JSON").map(|&(_, chunk)| chunk);
     let json = json.ok_or_else(|| Fault::new("GLB chunk 0", "is not JSON"))?;
     // Chunks of other kinds are to be ignored.
     let binary = chunks.iter().find(|(kind, _)| kind == b"BIN\0").map(|&(_, chunk)| chunk);
+    if length > bytes.len() {
+        if binary.is_none() {
+            return Err(fault(format!("announces {length} bytes; the file has {}", bytes.len())));
+        }
+        report.warn("GLB header", format!("announces {length} bytes; the file has {}, which are read", bytes.len()));
+    }
     Ok((json, binary))
 }
 
 fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
     let json = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
+    let decoded = utf_16(json);
+    // Writers pad chunks with zeros as well as with spaces.
+    let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    let json = json.get(..end).unwrap_or_default();
     if json.iter().all(u8::is_ascii_whitespace) {
         return Err(Fault::new("JSON", "the file is empty"));
     }
-    Root::from_slice(json).or_else(|error| {
-        let fault = || Fault::new("JSON", error.to_string());
-        let mut value: Value = serde_json::from_slice(json).map_err(|_| fault())?;
-        let dropped = repair(&mut value);
-        let root = serde_json::from_value(value).map_err(|_| fault())?;
-        if dropped {
-            report.warn_once("animations", "channels that do not move a node are not read");
+    if let Ok(root) = Root::from_slice(json) {
+        return Ok(root);
+    }
+    let mut value = match serde_json::from_slice(json) {
+        Ok(value) => value,
+        Err(error) => {
+            let text = decoded.map_or_else(|| String::from_utf8_lossy(json), Cow::Owned);
+            let value = serde_json::from_str(&tidy(&text)).map_err(|_| Fault::new("JSON", error.to_string()))?;
+            report.warn("JSON", format!("{error}; it is read as if it were JSON"));
+            value
         }
-        Ok(root)
-    })
+    };
+    check_kind(&mut value, report)?;
+    mend(value, report)
 }
 
-/// Changes what the specification allows and the reader does not: a scene without nodes, and animation channels
-/// without a node (they belong to an extension). Tells whether channels were dropped.
-fn repair(root: &mut Value) -> bool {
-    let list = |value: &mut Value, name: &str| -> Vec<Value> {
-        value.get_mut(name).and_then(Value::as_array_mut).map(std::mem::take).unwrap_or_default()
+/// Text of 16-bit units, which a text editor may make of a file.
+fn utf_16(bytes: &[u8]) -> Option<String> {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xFF, 0xFE, ..] | [b'{', 0, ..] => u16::from_le_bytes,
+        [0xFE, 0xFF, ..] | [0, b'{', ..] => u16::from_be_bytes,
+        _ => return None,
     };
-    let mut scenes = list(root, "scenes");
-    for scene in scenes.iter_mut().filter_map(Value::as_object_mut) {
-        scene.entry("nodes").or_insert_with(|| Value::Array(Vec::new()));
-    }
-    let mut dropped = false;
-    let mut animations = list(root, "animations");
-    for channels in animations.iter_mut().filter_map(|animation| animation.get_mut("channels")?.as_array_mut()) {
-        let before = channels.len();
-        channels.retain(|channel| channel.pointer("/target/node").is_some());
-        dropped |= channels.len() < before;
+    let units: Vec<u16> = bytes.as_chunks::<2>().0.iter().map(|&pair| unit(pair)).collect();
+    Some(String::from_utf16_lossy(&units).trim_start_matches('\u{FEFF}').to_owned())
+}
+
+/// Refuses JSON that is not glTF 2.0.
+fn check_kind(root: &mut Value, report: &mut Report) -> Result<(), Fault> {
+    let lists = ["meshes", "nodes", "accessors"];
+    let version = root.pointer("/asset/version").cloned();
+    // The lists of glTF 1.0 are objects.
+    let first = lists.iter().any(|&list| root.get(list).is_some_and(Value::is_object));
+    match version {
+        Some(Value::String(version)) if !version.starts_with('1') && !first => return Ok(()),
+        Some(Value::Number(number)) if number.as_f64() == Some(2.0) => {
+            report.warn("asset.version", "is a number; it is read as 2.0");
+        }
+        None if !first && lists.iter().all(|&list| root.get(list).is_some_and(Value::is_array)) => {
+            report.warn("asset.version", "there is none; the file is read as glTF 2.0");
+        }
+        None if !first => return Err(Fault::new("JSON", "there is no asset.version: this is not a glTF file")),
+        version => {
+            let version = version.map_or("1.0".into(), |version| version.to_string().replace('"', ""));
+            return Err(Fault::new("asset.version", format!("{version}: glTF {version} is not read; 2.0 is")));
+        }
     }
     if let Some(root) = root.as_object_mut() {
-        root.insert("scenes".into(), Value::Array(scenes));
-        root.insert("animations".into(), Value::Array(animations));
+        root.insert("asset".into(), serde_json::json!({"version": "2.0"}));
     }
-    dropped
+    Ok(())
 }
 
 fn check_version(root: &Root) -> Result<(), Fault> {

@@ -10,8 +10,9 @@ use gltf::json::{Index, Texture as TextureSource};
 
 use super::buffer::data_uri;
 use super::source::Source;
+use crate::image_io::recognise;
 use crate::scene::description::{Image, Texture, Wrap};
-use crate::scene::load::decode::{decode, recognise};
+use crate::scene::load::decode::decode;
 use crate::scene::load::report::{Fault, Report};
 
 /// Most texels that the images of one file may have together (4 GiB).
@@ -34,27 +35,43 @@ impl<'a> Images<'a> {
         Self { source, images: Vec::new(), texels: 0, known: HashMap::new(), files: HashMap::new() }
     }
 
-    /// The texture of a material. Where its image cannot be read there is a warning and no texture.
-    pub fn texture(&mut self, info: &Info, element: &str, report: &mut Report) -> Result<Option<Texture>, Fault> {
-        let texture = self.source.get(info.index, element)?;
-        let Some(image) = self.image(texture, info.index, report)? else { return Ok(None) };
-        let mut used = Texture { image, uv_set: info.tex_coord as usize, ..Texture::new(image) };
+    /// The texture of a material. A texture that cannot be read costs itself and a warning.
+    pub fn texture(&mut self, info: &Option<Info>, element: &str, report: &mut Report) -> Option<Texture> {
+        let info = info.as_ref()?;
+        let texture = match self.source.get(info.index, element) {
+            Ok(texture) => texture,
+            Err(fault) => {
+                report.replace(fault, "the material is drawn without this texture");
+                return None;
+            }
+        };
+        let image = self.image(texture, info.index, report)?;
+        let mut used = Texture { uv_set: info.tex_coord as usize, ..Texture::new(image) };
         if let Some(transform) = info.extensions.as_ref().and_then(|extensions| extensions.texture_transform.as_ref()) {
             used.uv_set = transform.tex_coord.map_or(used.uv_set, |set| set as usize);
-            used.transform = affine(transform.offset.0, transform.rotation.0, transform.scale.0);
+            let matrix = affine(transform.offset.0, transform.rotation.0, transform.scale.0);
+            if matrix.iter().flatten().all(|number| number.is_finite()) {
+                used.transform = matrix;
+            } else {
+                report.warn(format!("{element}.KHR_texture_transform"), "is not finite; it is left out");
+            }
         }
         if used.uv_set > 1 {
             let set = used.uv_set;
             report.warn(element, format!("TEXCOORD_{set} is not read (0 and 1 are); it is drawn without this texture"));
-            return Ok(None);
+            return None;
         }
         if let Some(sampler) = texture.sampler {
             let user = format!("textures[{}].sampler", info.index);
-            let sampler = self.source.get(sampler, &user)?;
-            used.wrap = [wrap(sampler.wrap_s, &user)?, wrap(sampler.wrap_t, &user)?];
-            used.nearest = sampler.mag_filter == Some(Checked::Valid(MagFilter::Nearest));
+            match self.source.get(sampler, &user) {
+                Ok(sampler) => {
+                    used.wrap = [wrap(sampler.wrap_s, &user, report), wrap(sampler.wrap_t, &user, report)];
+                    used.nearest = sampler.mag_filter == Some(Checked::Valid(MagFilter::Nearest));
+                }
+                Err(fault) => report.replace(fault, "the texture repeats"),
+            }
         }
-        Ok(Some(used))
+        Some(used)
     }
 
     /// Looks at the images that no texture asked for, so that a file that is incomplete is never silently so.
@@ -72,30 +89,41 @@ impl<'a> Images<'a> {
         }
     }
 
-    fn image(
-        &mut self,
-        texture: &TextureSource,
-        index: Index<TextureSource>,
-        report: &mut Report,
-    ) -> Result<Option<usize>, Fault> {
-        let user = format!("textures[{index}]");
+    /// The first image of a texture that can be read: its source, or what an extension has instead.
+    fn image(&mut self, texture: &TextureSource, index: Index<TextureSource>, report: &mut Report) -> Option<usize> {
         // The JSON reader stands this in for an absent source.
-        if texture.source.value() == u32::MAX as usize {
-            report.warn_once(&user, format!("texture {index} names no image that is read; it is left out"));
-            return Ok(None);
+        let own = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
+        let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
+        let named = |extension: &str| others?.get(extension)?.get("source")?.as_u64().map(|source| source as usize);
+        let candidates = [own, named("EXT_texture_webp"), named("KHR_texture_basisu"), named("MSFT_texture_dds")];
+        let mut candidates = candidates.into_iter().flatten().peekable();
+        let user = format!("textures[{index}]");
+        if candidates.peek().is_none() {
+            report.warn(format!("{user}.source"), "names no image that is read; the texture is left out");
         }
-        let image = self.source.get(texture.source, &format!("{user}.source"))?;
-        let key = texture.source.value();
-        if let Some(&known) = self.known.get(&key) {
-            return Ok(known);
+        candidates.find_map(|source| self.listed(source, &user, report))
+    }
+
+    /// An image of the file's list.
+    fn listed(&mut self, index: usize, user: &str, report: &mut Report) -> Option<usize> {
+        let Some(image) = self.source.root.images.get(index) else {
+            let reason = format!("index {index} is out of range: the file has {}", self.source.root.images.len());
+            report.replace(Fault::new(format!("{user}.source"), reason), "materials are drawn without it");
+            return None;
+        };
+        if let Some(&known) = self.known.get(&index) {
+            return known;
         }
-        let decoded = self.decode(image, key);
+        let decoded = self.decode(image, index);
         let known = decoded.map_err(|reason| {
-            report.warn(format!("images[{key}]"), format!("{reason}; materials are drawn without it"));
+            let element = format!("images[{index}]");
+            if !["bufferView", "uri"].iter().any(|member| report.is_removed(&format!("{element}.{member}"))) {
+                report.warn(element, format!("{reason}; materials are drawn without it"));
+            }
         });
         let known = known.ok().flatten();
-        self.known.insert(key, known);
-        Ok(known)
+        self.known.insert(index, known);
+        known
     }
 
     /// Decodes an image, unless the same file failed before: then there is `None`, and nothing more to say.
@@ -115,7 +143,8 @@ impl<'a> Images<'a> {
             return added.map(Some).map_err(|reason| format!("\"{uri}\" {reason}"));
         }
         let view = image.buffer_view.ok_or("has neither a uri nor a buffer view")?;
-        let (_, bytes) = self.source.view(view, "bufferView").map_err(|fault| fault.reason)?;
+        let (_, bytes) =
+            self.source.view(view, "bufferView").map_err(|fault| format!("{}: {}", fault.element, fault.reason))?;
         self.add(&name, bytes).map(Some)
     }
 
@@ -137,11 +166,14 @@ fn affine(offset: [f32; 2], rotation: f32, scale: [f32; 2]) -> [[f32; 3]; 2] {
     [[cos * scale[0], sin * scale[1], offset[0]], [-sin * scale[0], cos * scale[1], offset[1]]]
 }
 
-fn wrap(mode: Checked<WrappingMode>, element: &str) -> Result<Wrap, Fault> {
+fn wrap(mode: Checked<WrappingMode>, element: &str, report: &mut Report) -> Wrap {
     match mode {
-        Checked::Valid(WrappingMode::Repeat) => Ok(Wrap::Repeat),
-        Checked::Valid(WrappingMode::MirroredRepeat) => Ok(Wrap::Mirror),
-        Checked::Valid(WrappingMode::ClampToEdge) => Ok(Wrap::Clamp),
-        Checked::Invalid => Err(Fault::new(element, "a wrap mode is none of 10497, 33071 and 33648")),
+        Checked::Valid(WrappingMode::Repeat) => Wrap::Repeat,
+        Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
+        Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
+        Checked::Invalid => {
+            report.warn_once(element, "a wrap mode is none of 10497, 33071 and 33648; the texture repeats");
+            Wrap::Repeat
+        }
     }
 }

@@ -6,13 +6,23 @@
 
 mod accessor;
 mod animation;
+mod attributes;
 mod buffer;
+mod camera;
 mod container;
+mod deform;
+mod glossiness;
 mod image;
+mod instancing;
+mod light;
 mod material;
+mod mend;
 mod mesh;
 mod node;
 mod source;
+mod text;
+mod transform;
+mod transmission;
 
 use std::path::Path;
 
@@ -37,12 +47,12 @@ fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fau
     let folder = Folder::of(files, path).map_err(unreadable)?;
     let bytes = files.read(path).map_err(unreadable)?;
     let container = container::open(&bytes, report)?;
-    let buffers = buffer::read_all(&container.root, container.binary, &folder)?;
+    let buffers = buffer::read_all(&container.root, container.binary, &folder, report);
     let source = Source { root: container.root, buffers, folder };
 
     let mut scene = Scene::default();
-    material::read_all(&source, report, &mut scene)?;
-    let places = node::read_all(&source, report, &mut scene)?;
-    animation::read_all(&source, report, &mut scene, &places)?;
+    material::read_all(&source, report, &mut scene);
+    let places = node::read_all(&source, report, &mut scene);
+    animation::read_all(&source, report, &mut scene, &places);
     Ok(scene)
 }

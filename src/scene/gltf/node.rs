@@ -1,17 +1,19 @@
-//! The node hierarchy of the default scene, with its lights and cameras.
+//! The node hierarchy of the default scene.
 
 use std::collections::{HashMap, HashSet};
-use std::f32::consts::{FRAC_PI_2, PI};
+use std::rc::Rc;
 
-use glam::{Affine3A, Mat4, Quat, Vec4};
-use gltf::json::extensions::scene::khr_lights_punctual as punctual;
-use gltf::json::validation::Checked;
-use gltf::json::{Index, Node as NodeSource, camera};
+use glam::DMat4;
+use gltf::json::{Index, Node as NodeSource};
 
+use super::deform::{Deformation, Skin};
+use super::instancing::instances;
 use super::mesh::Meshes;
 use super::source::{Source, lookup};
-use crate::scene::description::{Light, LightKind, Node, Perspective, Scene, Transform};
-use crate::scene::load::report::{Fault, Report};
+use super::transform::{separate, transform, world};
+use super::{camera, light};
+use crate::scene::description::{Node, Scene};
+use crate::scene::load::report::Report;
 
 /// Where each node of the file that is in the scene came to lie in [`Scene::nodes`].
 pub(super) type Places = HashMap<usize, usize>;
@@ -20,108 +22,162 @@ pub(super) type Places = HashMap<usize, usize>;
 type Link = (Index<NodeSource>, Option<Index<NodeSource>>);
 
 /// Reads the nodes of the default scene, and the meshes, lights and cameras that they place.
-pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Result<Places, Fault> {
-    let lights = source.root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
-    let lights = lights.map_or(&[][..], |extension| &extension.lights);
-    for (index, light) in lights.iter().enumerate() {
-        scene.lights.push(read_light(light, &format!("KHR_lights_punctual.lights[{index}]"), report)?);
-    }
-    let cameras = read_cameras(source, report, scene)?;
+pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Places {
+    let lights = light::read_all(source, report, scene);
+    let cameras = camera::read_all(source, report, scene);
     let animated = animated(source);
-    let mut meshes = Meshes::new(source);
+    let mut shapes = Shapes { source, meshes: Meshes::new(source), world: None, skins: HashMap::new() };
     let mut places = Places::new();
 
-    for (index, parent) in ordered(source, report)? {
+    for (index, parent) in ordered(source, report) {
         let element = format!("nodes[{index}]");
-        let node = source.get(index, &element)?;
+        let Ok(node) = source.get(index, &element) else { continue };
         let light = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
-        if let Some(light) = light {
-            lookup(lights, light.light, &format!("{element}.light"))?;
-        }
-        if let Some(camera) = node.camera {
-            source.get(camera, &format!("{element}.camera"))?;
-        }
-        if node.skin.is_some() {
-            report.warn_once(&element, "skins are not read; the rest shape is drawn");
-        }
-        let transform = transform(node, &element)?;
-        places.insert(index.value(), scene.nodes.len());
-        let placed = match node.mesh {
-            Some(mesh) => meshes.get(mesh, &format!("{element}.mesh"), report, scene)?,
-            None => Vec::new(),
-        };
-        scene.nodes.push(Node {
-            name: node.name.clone().unwrap_or_default(),
-            parent: parent.and_then(|parent| places.get(&parent.value())).copied(),
-            transform: if animated.contains(&index.value()) {
-                separate(transform, &element, report)
-            } else {
-                transform
-            },
-            meshes: placed,
-            light: light.map(|light| light.light.value()),
-            camera: node.camera.and_then(|camera| cameras.get(camera.value()).copied().flatten()),
-            movable: false,
+        let light = light.and_then(|light| {
+            let found = lookup(light::listed(source), light.light, &format!("{element}.light"));
+            found.map_err(|fault| report.replace(fault, "it is left out")).ok()?;
+            lights.get(light.light.value()).copied().flatten()
         });
+        let camera = node.camera.and_then(|camera| {
+            let found = source.get(camera, &format!("{element}.camera"));
+            found.map_err(|fault| report.replace(fault, "it is left out")).ok()?;
+            cameras.get(camera.value()).copied().flatten()
+        });
+        let transform = transform(node, &element, report);
+        let transform =
+            if animated.contains(&index.value()) { separate(transform, &element, report) } else { transform };
+        let (meshes, skinned) = shapes.of(node, &element, report, scene);
+        let place = scene.nodes.len();
+        places.insert(index.value(), place);
+        let name = node.name.clone().unwrap_or_default();
+        let parent = parent.and_then(|parent| places.get(&parent.value())).copied();
+        let own = Node { name: name.clone(), parent, transform, light, camera, ..Node::default() };
+        if skinned {
+            // The joints place a skinned mesh, and the transform of its node does not (glTF 2.0, 3.7.3.3).
+            scene.nodes.extend([own, Node { name, meshes, ..Node::default() }]);
+        } else if let Some(transforms) = instances(source, node, &element, report) {
+            scene.nodes.push(own);
+            let instance = |transform| Node {
+                name: name.clone(),
+                parent: Some(place),
+                transform,
+                meshes: meshes.clone(),
+                ..Node::default()
+            };
+            scene.nodes.extend(transforms.into_iter().map(instance));
+        } else {
+            scene.nodes.push(Node { meshes, ..own });
+        }
     }
-    Ok(places)
+    warn_of_moving_joints(source, report);
+    places
 }
 
-/// The nodes of the default scene, each with its parent, parents first.
-fn ordered(source: &Source<'_>, report: &mut Report) -> Result<Vec<Link>, Fault> {
-    let roots = roots(source, report)?;
-    let children = |node: Index<NodeSource>| -> Result<&[Index<NodeSource>], Fault> {
-        let description = source.get(node, &format!("nodes[{node}]"))?;
-        Ok(description.children.as_deref().unwrap_or_default())
-    };
+/// The meshes in the shapes that nodes give them.
+struct Shapes<'a> {
+    source: &'a Source<'a>,
+    meshes: Meshes<'a>,
+    /// The matrix of each node of the file, once a skin asks for it.
+    world: Option<Vec<DMat4>>,
+    skins: HashMap<usize, Option<Rc<Skin>>>,
+}
+
+impl Shapes<'_> {
+    /// The meshes of a node, and whether a skin places them.
+    fn of(&mut self, node: &NodeSource, element: &str, report: &mut Report, scene: &mut Scene) -> (Vec<usize>, bool) {
+        let Some(index) = node.mesh else { return (Vec::new(), false) };
+        let mesh = match self.source.get(index, &format!("{element}.mesh")) {
+            Ok(mesh) => mesh,
+            Err(fault) => {
+                report.lose(fault);
+                return (Vec::new(), false);
+            }
+        };
+        let weights = node.weights.clone().or_else(|| mesh.weights.clone()).unwrap_or_default();
+        let mut deformation = Deformation { weights, skin: None };
+        if deformation.weights.iter().any(|weight| !weight.is_finite()) {
+            report.warn(format!("{element}.weights"), "a weight is not finite; 0 is used");
+            deformation.weights.iter_mut().filter(|weight| !weight.is_finite()).for_each(|weight| *weight = 0.0);
+        }
+        deformation.skin = node.skin.and_then(|skin| {
+            let known = self.skins.entry(skin.value()).or_insert_with(|| {
+                let world = self.world.get_or_insert_with(|| world(self.source));
+                let read = Skin::read(self.source, skin, world, &format!("{element}.skin"));
+                let instead = "the mesh is drawn without its skin";
+                read.map(Rc::new).map_err(|fault| report.replace(fault, instead)).ok()
+            });
+            known.clone()
+        });
+        let meshes = self.meshes.get(index, &deformation, report, scene);
+        (meshes, deformation.skin.is_some())
+    }
+}
+
+/// The nodes of the default scene, each with its parent, parents first, each once.
+fn ordered(source: &Source<'_>, report: &mut Report) -> Vec<Link> {
+    let mut roots = roots(source, report);
+    roots.retain(|&root| exists(source, root, "scene.nodes", report));
+    let children: Vec<Vec<Index<NodeSource>>> = source
+        .root
+        .nodes
+        .iter()
+        .enumerate()
+        .map(|(node, description)| {
+            let user = format!("nodes[{node}].children");
+            let listed = description.children.as_deref().unwrap_or_default();
+            listed.iter().copied().filter(|&child| exists(source, child, &user, report)).collect()
+        })
+        .collect();
 
     // A scene may list a node that is also the child of another one. It is drawn once, below its parent.
     let mut reachable = HashSet::new();
     let mut below = HashSet::new();
-    let mut open = Vec::new();
-    for (position, &root) in roots.iter().enumerate() {
-        source.get(root, &format!("scene.nodes[{position}]"))?;
-        open.push(root);
-    }
+    let mut open = roots.clone();
     while let Some(node) = open.pop() {
-        if !reachable.insert(node.value()) {
-            continue;
-        }
-        for (position, &child) in children(node)?.iter().enumerate() {
-            source.get(child, &format!("nodes[{node}].children[{position}]"))?;
-            below.insert(child.value());
-            open.push(child);
+        if reachable.insert(node.value()) {
+            below.extend(children[node.value()].iter().map(Index::value));
+            open.extend(&children[node.value()]);
         }
     }
 
     let mut order = Vec::with_capacity(reachable.len());
     let mut seen = HashSet::new();
-    let mut open: Vec<_> =
+    let mut open: Vec<Link> =
         roots.iter().rev().filter(|root| !below.contains(&root.value())).map(|&root| (root, None)).collect();
-    while let Some((node, parent)) = open.pop() {
-        if !seen.insert(node.value()) {
-            if parent.is_none() {
-                continue; // a root that is listed twice
+    loop {
+        while let Some((node, parent)) = open.pop() {
+            if seen.insert(node.value()) {
+                order.push((node, parent));
+                open.extend(children[node.value()].iter().rev().map(|&child| (child, Some(node))));
+            } else if parent.is_some() {
+                let reason = "is the child of more than one node, or its own ancestor; it is drawn once";
+                report.warn(format!("nodes[{node}]"), reason);
             }
-            return Err(Fault::new(format!("nodes[{node}]"), "is the child of more than one node"));
         }
-        order.push((node, parent));
-        open.extend(children(node)?.iter().rev().map(|&child| (child, Some(node))));
+        // A circle has no root of its own.
+        let Some(&next) = reachable.iter().filter(|node| !seen.contains(node)).min() else { break };
+        open.push((Index::new(next as u32), None));
     }
-    match reachable.iter().filter(|node| !seen.contains(node)).min() {
-        Some(node) => Err(Fault::new(format!("nodes[{node}]"), "is its own ancestor, or below such a node")),
-        None => Ok(order),
-    }
+    order
+}
+
+/// Whether there is such a node; warns if not.
+fn exists(source: &Source<'_>, node: Index<NodeSource>, user: &str, report: &mut Report) -> bool {
+    let found = source.get(node, user);
+    found.map_err(|fault| report.replace(fault, "it is left out")).is_ok()
 }
 
 /// The roots of the default scene: the one that the file names, else its first, else every node without a parent.
-fn roots(source: &Source<'_>, report: &mut Report) -> Result<Vec<Index<NodeSource>>, Fault> {
+fn roots(source: &Source<'_>, report: &mut Report) -> Vec<Index<NodeSource>> {
     let root = &source.root;
     if let Some(scene) = root.scene {
-        return Ok(source.get(scene, "scene")?.nodes.clone());
+        match source.get(scene, "scene") {
+            Ok(scene) => return scene.nodes.clone(),
+            Err(fault) => report.replace(fault, "the first scene is drawn"),
+        }
     }
     if let Some(first) = root.scenes.first() {
-        return Ok(first.nodes.clone());
+        return first.nodes.clone();
     }
     if !root.nodes.is_empty() {
         report.warn("scenes", "the file has no scene; all its nodes are drawn");
@@ -129,46 +185,7 @@ fn roots(source: &Source<'_>, report: &mut Report) -> Result<Vec<Index<NodeSourc
     let children: HashSet<usize> =
         root.nodes.iter().flat_map(|node| node.children.iter().flatten()).map(Index::value).collect();
     let orphans = (0..root.nodes.len()).filter(|node| !children.contains(node));
-    Ok(orphans.filter_map(|node| u32::try_from(node).ok()).map(Index::new).collect())
-}
-
-fn transform(node: &NodeSource, element: &str) -> Result<Transform, Fault> {
-    let finite = |numbers: &[f32], name: &str| match numbers.iter().all(|number| number.is_finite()) {
-        true => Ok(()),
-        false => Err(Fault::new(format!("{element}.{name}"), format!("is not finite: {numbers:?}"))),
-    };
-    if let Some(matrix) = &node.matrix {
-        finite(matrix, "matrix")?;
-        let columns = Mat4::from_cols_array(matrix);
-        let last_row = columns.row(3);
-        // Exporters that multiply matrices leave rounding errors here.
-        if !last_row.abs_diff_eq(Vec4::W, 1e-4) {
-            let reason = format!("its last row is {last_row}, where 0, 0, 0, 1 belongs");
-            return Err(Fault::new(format!("{element}.matrix"), reason));
-        }
-        let affine = Affine3A::from_mat4(columns);
-        return Ok(Transform::Matrix(Mat4::from(affine).to_cols_array_2d()));
-    }
-    let translation = node.translation.unwrap_or_default();
-    let rotation = node.rotation.unwrap_or_default().0;
-    let scale = node.scale.unwrap_or([1.0; 3]);
-    finite(&translation, "translation")?;
-    finite(&rotation, "rotation")?;
-    finite(&scale, "scale")?;
-    let rotation = Vec4::from(rotation).try_normalize().ok_or_else(|| {
-        Fault::new(format!("{element}.rotation"), format!("{rotation:?} is not a rotation: its length is 0"))
-    })?;
-    Ok(Transform::Trs { translation, rotation: rotation.to_array(), scale })
-}
-
-/// Makes a transform one that can be animated.
-fn separate(transform: Transform, element: &str, report: &mut Report) -> Transform {
-    let Transform::Matrix(matrix) = transform else { return transform };
-    let matrix = Mat4::from_cols_array_2d(&matrix);
-    let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
-    report.warn(element, "is animated though it has a matrix; the matrix is split, and shear in it is lost");
-    let rotation = if rotation.is_finite() { rotation } else { Quat::IDENTITY };
-    Transform::Trs { translation: translation.into(), rotation: rotation.into(), scale: scale.into() }
+    orphans.filter_map(|node| u32::try_from(node).ok()).map(Index::new).collect()
 }
 
 /// The nodes that some animation moves.
@@ -177,72 +194,17 @@ fn animated(source: &Source<'_>) -> HashSet<usize> {
     channels.map(|channel| channel.target.node.value()).collect()
 }
 
-fn read_light(light: &punctual::Light, element: &str, report: &mut Report) -> Result<Light, Fault> {
-    let kind = match light.type_ {
-        Checked::Valid(punctual::Type::Directional) => LightKind::Directional,
-        Checked::Valid(punctual::Type::Point) => LightKind::Point,
-        Checked::Valid(punctual::Type::Spot) => {
-            let cone =
-                light.spot.as_ref().map_or((0.0, PI / 4.0), |spot| (spot.inner_cone_angle, spot.outer_cone_angle));
-            read_cone(cone, element, report)
-        }
-        Checked::Invalid => {
-            return Err(Fault::new(format!("{element}.type"), "is none of directional, point and spot"));
-        }
-    };
-    report.warn_once(element, "photometric units are taken to be radiometric: lux as W/m², candela as W/sr");
-    let intensity = light.color.map(|channel| channel * light.intensity);
-    let range = light.range.unwrap_or(f32::INFINITY);
-    if range.is_nan() || range <= 0.0 {
-        report.warn(format!("{element}.range"), format!("{range} is not above 0; the light has no end"));
+/// Says that skins are drawn at rest, if an animation moves one of their joints.
+fn warn_of_moving_joints(source: &Source<'_>, report: &mut Report) {
+    let nodes = &source.root.nodes;
+    let mut moving = animated(source);
+    let mut open: Vec<usize> = moving.iter().copied().collect();
+    while let Some(node) = open.pop() {
+        let children = nodes.get(node).into_iter().flat_map(|node| node.children.iter().flatten());
+        open.extend(children.map(Index::value).filter(|&child| moving.insert(child)));
     }
-    Ok(Light {
-        kind,
-        intensity: report.clamp_radiance(intensity, || format!("{element}.intensity")),
-        range: if range > 0.0 { range } else { f32::INFINITY },
-    })
-}
-
-fn read_cone((inner, outer): (f32, f32), element: &str, report: &mut Report) -> LightKind {
-    let wide = if outer > 0.0 { outer.min(FRAC_PI_2) } else { PI / 4.0 };
-    // The fade between the two divides by their difference.
-    let narrow = inner.clamp(0.0, wide * 0.999);
-    if (narrow, wide) != (inner, outer) {
-        let reason = format!(
-            "cone angles {inner} and {outer} do not keep 0 ≤ inner < outer ≤ π/2; {narrow} and {wide} are used"
-        );
-        report.warn(format!("{element}.spot"), reason);
+    let moves = |skin: &gltf::json::Skin| skin.joints.iter().any(|joint| moving.contains(&joint.value()));
+    if let Some(skin) = source.root.skins.iter().position(moves) {
+        report.warn(format!("skins[{skin}]"), "animated skins are not read; they are drawn at rest");
     }
-    LightKind::Spot { inner: narrow, outer: wide }
-}
-
-/// Reads the perspective cameras; the result tells for each camera of the file which one of the scene it became.
-fn read_cameras(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Result<Vec<Option<usize>>, Fault> {
-    let mut places = Vec::new();
-    for (index, camera) in source.root.cameras.iter().enumerate() {
-        let element = format!("cameras[{index}]");
-        places.push(match (&camera.type_, &camera.perspective) {
-            (Checked::Valid(camera::Type::Perspective), Some(perspective)) => {
-                let fov_y = perspective.yfov;
-                if fov_y > 0.0 && fov_y < PI {
-                    scene.cameras.push(Perspective { fov_y });
-                    Some(scene.cameras.len() - 1)
-                } else {
-                    report.warn(element, format!("yfov {fov_y} is not between 0 and π; the camera is left out"));
-                    None
-                }
-            }
-            (Checked::Valid(camera::Type::Perspective), None) => {
-                return Err(Fault::new(element, "has no perspective"));
-            }
-            (Checked::Valid(camera::Type::Orthographic), _) => {
-                report.warn(element, "orthographic cameras are not read; it is left out");
-                None
-            }
-            (Checked::Invalid, _) => {
-                return Err(Fault::new(format!("{element}.type"), "is neither perspective nor orthographic"));
-            }
-        });
-    }
-    Ok(places)
 }

@@ -1,16 +1,15 @@
 //! The parts of an opened file.
 
-use std::rc::Rc;
-
 use gltf::json::{Index, Root, buffer::View};
 
+use super::buffer::Buffer;
 use crate::scene::load::folder::Folder;
 use crate::scene::load::report::Fault;
 
 /// An opened file: its JSON, its bytes and its folder.
 pub(super) struct Source<'a> {
     pub root: Root,
-    pub buffers: Vec<Rc<[u8]>>,
+    pub buffers: Vec<Buffer>,
     pub folder: Folder<'a>,
 }
 
@@ -30,6 +29,7 @@ impl Source<'_> {
         let buffer = self.buffers.get(view.buffer.value()).ok_or_else(|| {
             fault(format!("buffer {} is out of range: the file has {}", view.buffer, self.buffers.len()))
         })?;
+        let buffer = buffer.as_ref().map_err(Fault::clone)?;
         let (start, length) = (view.byte_offset.map_or(0, |offset| offset.0), view.byte_length.0);
         let range =
             usize::try_from(start).ok().zip(start.checked_add(length).and_then(|end| usize::try_from(end).ok()));

@@ -33,8 +33,9 @@ impl<'a> Folder<'a> {
     /// The file that a relative, percent-encoded URI stands for. The error is a reason.
     #[cfg(feature = "gltf")]
     pub fn locate_uri(&self, uri: &str) -> Result<PathBuf, String> {
-        let decoded = percent_decode(uri).ok_or_else(|| format!("\"{uri}\" is not a well-formed URI"))?;
-        self.locate(&decoded)
+        // Many writers do not encode their names at all.
+        let decoded = percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok());
+        self.locate(decoded.as_deref().unwrap_or(uri)).or_else(|reason| self.locate(uri).map_err(|_| reason))
     }
 
     /// The file that a relative path stands for. The error is a reason.
@@ -66,9 +67,9 @@ fn has_scheme(uri: &str) -> bool {
     })
 }
 
-/// Replaces `%20` and the like. `None` for an incomplete escape, or where the result is not UTF-8.
+/// Replaces `%20` and the like. `None` for an incomplete escape.
 #[cfg(feature = "gltf")]
-fn percent_decode(uri: &str) -> Option<String> {
+pub(crate) fn percent_decode(uri: &str) -> Option<Vec<u8>> {
     let mut decoded = Vec::with_capacity(uri.len());
     let mut bytes = uri.bytes();
     while let Some(byte) = bytes.next() {
@@ -80,5 +81,5 @@ fn percent_decode(uri: &str) -> Option<String> {
             other => other,
         });
     }
-    String::from_utf8(decoded).ok()
+    Some(decoded)
 }

@@ -7,7 +7,7 @@ use crate::scene::description::{Scene, SceneError, Warning};
 use crate::scene::load::Loaded;
 
 /// What is wrong with an element. [`Report::error`] adds the file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Fault {
     pub element: String,
     pub reason: String,
@@ -19,20 +19,50 @@ impl Fault {
     }
 }
 
+/// Most warnings that are kept in detail: a file may have a fault for each of its elements.
+const DETAILS: usize = 1 << 16;
+
 /// Collects the warnings about a file and completes its errors.
+///
+/// A file is refused only where nothing of it can be drawn. An element that is broken costs itself and one warning, which
+/// names the element and its replacement.
 pub(crate) struct Report {
     file: String,
     warnings: Vec<Warning>,
+    /// Every warning, whether another one has the same reason or not.
+    details: Vec<Warning>,
     said: HashSet<String>,
+    removed: HashSet<String>,
+    /// The first part of the model that was lost: the reason to refuse a file of which nothing else can be drawn.
+    lost: Option<Fault>,
 }
 
 impl Report {
     pub fn new(file: &Path) -> Self {
-        Self { file: file.display().to_string(), warnings: Vec::new(), said: HashSet::new() }
+        Self {
+            file: file.display().to_string(),
+            warnings: Vec::new(),
+            details: Vec::new(),
+            said: HashSet::new(),
+            removed: HashSet::new(),
+            lost: None,
+        }
     }
 
+    /// Warns, unless the same was said of the same element, which may be read in several shapes, or the element was removed.
     pub fn warn(&mut self, element: impl Into<String>, reason: impl Into<String>) {
-        self.warnings.push(Warning { element: element.into(), reason: reason.into() });
+        let warning = Warning { element: element.into(), reason: reason.into() };
+        let new = self.said.insert(format!("{}: {}", warning.element, warning.reason));
+        if new && !self.is_removed(&warning.element) {
+            self.detail(warning.clone());
+            self.warnings.push(warning);
+        }
+    }
+
+    fn detail(&mut self, warning: Warning) {
+        if self.details.len() < DETAILS {
+            self.details.push(warning);
+        }
     }
 
     /// Warns unless the same reason was given before: for what a file does in many places, the first is named.
@@ -40,7 +70,44 @@ impl Report {
         let reason = reason.into();
         if self.said.insert(reason.clone()) {
             self.warn(element, reason);
+        } else {
+            self.detail(Warning { element: element.into(), reason });
         }
+    }
+
+    /// Warns that an element is read as if it were not there. Its absence needs no warning of its own.
+    #[cfg(feature = "gltf")]
+    pub fn remove(&mut self, element: &str, reason: &str) {
+        self.warn(element, format!("{reason}; it is read as if it were not there"));
+        self.removed.insert(element.to_owned());
+    }
+
+    /// Whether an element, or one that holds it, was removed.
+    pub fn is_removed(&self, element: &str) -> bool {
+        let ends = element.match_indices(['.', '[']).map(|(end, _)| end).chain([element.len()]);
+        !self.removed.is_empty() && ends.into_iter().any(|end| self.removed.contains(&element[..end]))
+    }
+
+    /// Takes the last warning back, because a later one says more about the same element.
+    #[cfg(feature = "gltf")]
+    pub fn withdraw(&mut self) {
+        self.warnings.pop();
+        self.details.pop();
+    }
+
+    /// Warns that a broken element is replaced. A fault that several elements share is named once.
+    #[cfg(feature = "gltf")]
+    pub fn replace(&mut self, fault: Fault, instead: &str) {
+        if self.said.insert(format!("{} {}", fault.element, fault.reason)) {
+            self.warn(fault.element, format!("{}; {instead}", fault.reason));
+        }
+    }
+
+    /// Warns that a part of the model is not drawn.
+    #[cfg(feature = "gltf")]
+    pub fn lose(&mut self, fault: Fault) {
+        self.lost.get_or_insert_with(|| fault.clone());
+        self.replace(fault, "it is not drawn");
     }
 
     /// `value` brought into 0…1, with a warning where that changes it visibly.
@@ -71,8 +138,11 @@ impl Report {
     pub fn finish(mut self, scene: Scene) -> Result<Loaded, SceneError> {
         scene.validate().map_err(|error| self.error(Fault::new(error.element, error.reason)))?;
         if scene.triangle_count() == 0 {
+            if let Some(lost) = self.lost.take() {
+                return Err(self.error(lost));
+            }
             self.warn("file", "nothing in it can be drawn: it places no triangles");
         }
-        Ok(Loaded { scene, warnings: self.warnings })
+        Ok(Loaded { scene, warnings: self.warnings, details: self.details })
     }
 }

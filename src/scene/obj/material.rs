@@ -173,7 +173,7 @@ impl Source {
             alpha,
             // Windings in OBJ files are not to be relied on.
             double_sided: true,
-            specular: if metal { 0.0 } else { strongest(specular).clamp(0.0, 1.0) },
+            specular: if metal { [0.0; 3] } else { specular.map(|x| x.clamp(0.0, 1.0)) },
             ..Material::default()
         }
     }

@@ -71,7 +71,7 @@ fn under_a_sky_with_a_bright_spot() {
 #[test]
 fn on_glossy_metal_and_coated_floors() {
     for (name, metallic, roughness) in [("metal", 1.0, 0.4), ("smoother metal", 1.0, 0.25), ("coat", 0.0, 0.5)] {
-        let gloss = Material { metallic, roughness, specular: 0.04, ..lambert([0.8, 0.6, 0.3]) };
+        let gloss = Material { metallic, roughness, specular: [0.04; 3], ..lambert([0.8, 0.6, 0.3]) };
         let floor = quad([-3.0, 0.0, 3.0], [6.0, 0.0, 0.0], [0.0, 0.0, -6.0], 0);
         let lamp = quad([-1.0, 1.5, -2.0], [2.0, 0.0, 0.0], [0.0, 0.5, 0.5], 1);
         let mut scene = scene(vec![gloss, Material { double_sided: true, ..emitter([4.0; 3]) }], vec![floor, lamp]);

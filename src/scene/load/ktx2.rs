@@ -1,0 +1,66 @@
+//! KTX2 textures without compression.
+
+use ktx2::{Format, Reader, SupercompressionScheme};
+
+use crate::image_io::MAX_SIDE;
+use crate::scene::description::Image;
+
+/// Decodes the largest level of a two-dimensional texture. The error is a reason.
+pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
+    const ONLY: &str = "only uncompressed formats of 8 bits a channel are read";
+    let reader = Reader::new(bytes).map_err(|error| format!("is not a sound KTX2 file: {error:?}"))?;
+    let header = reader.header();
+    if let Some(scheme) = header.supercompression_scheme {
+        return Err(format!("is a KTX2 file with the supercompression {}; {ONLY}", scheme_name(scheme)));
+    }
+    let order = header.format.and_then(channels).ok_or_else(|| match header.format {
+        Some(format) => format!("is a KTX2 file of the format {format:?}; {ONLY}"),
+        None => format!("is a KTX2 file of a format without a number (Basis Universal?); {ONLY}"),
+    })?;
+    let (width, height) = (header.pixel_width, header.pixel_height);
+    let side = 1..=MAX_SIDE as u32;
+    if height == 0 || header.pixel_depth > 0 || header.layer_count > 1 || header.face_count != 1 {
+        return Err("is a KTX2 file of another shape than one flat picture".into());
+    }
+    if !side.contains(&width) || !side.contains(&height) {
+        return Err(format!("is {width} × {height} texels large; 1 to {MAX_SIDE} a side are read"));
+    }
+    let level = reader.levels().next().map(|level| level.data).unwrap_or_default();
+    let texels: Vec<[u8; 4]> = level.chunks_exact(order.len()).map(|texel| rgba(texel, order)).collect();
+    let count = width as usize * height as usize;
+    if texels.len() < count {
+        return Err(format!("is a KTX2 file of {width} × {height} texels with data for {}", texels.len()));
+    }
+    let texels = texels.into_iter().take(count).collect();
+    Ok(Image { name: name.into(), width, height, texels })
+}
+
+/// Which channel (0 to 3 for red to alpha) each byte of a texel is.
+fn channels(format: Format) -> Option<&'static [usize]> {
+    Some(match format {
+        Format::R8_UNORM | Format::R8_SRGB => &[0],
+        Format::R8G8_UNORM | Format::R8G8_SRGB => &[0, 1],
+        Format::R8G8B8_UNORM | Format::R8G8B8_SRGB => &[0, 1, 2],
+        Format::B8G8R8_UNORM | Format::B8G8R8_SRGB => &[2, 1, 0],
+        Format::R8G8B8A8_UNORM | Format::R8G8B8A8_SRGB => &[0, 1, 2, 3],
+        Format::B8G8R8A8_UNORM | Format::B8G8R8A8_SRGB => &[2, 1, 0, 3],
+        _ => return None,
+    })
+}
+
+fn rgba(texel: &[u8], order: &[usize]) -> [u8; 4] {
+    let mut rgba = [0, 0, 0, 255];
+    for (&byte, &channel) in texel.iter().zip(order) {
+        rgba[channel] = byte;
+    }
+    rgba
+}
+
+fn scheme_name(scheme: SupercompressionScheme) -> &'static str {
+    match scheme {
+        SupercompressionScheme::BasisLZ => "BasisLZ",
+        SupercompressionScheme::Zstandard => "Zstandard",
+        SupercompressionScheme::ZLIB => "zlib",
+        _ => "of an unknown kind",
+    }
+}
