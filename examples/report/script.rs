@@ -16,7 +16,7 @@ const FOLDER: &str = "target/references";
 const TRACERS: [&str; 2] = ["shaders/visibility.wgsl", "shaders/trace.wgsl"];
 
 /// What hands them the scene, and takes the mean. What reads scenes from files is not there: its outcome is hashed.
-const SCENE: [&str; 15] = [
+const SCENE: [&str; 17] = [
     "examples/support/tracing.rs",
     "src/plan/batches.rs",
     "src/scene/alias.rs",
@@ -28,8 +28,10 @@ const SCENE: [&str; 15] = [
     "src/scene/instances.rs",
     "src/scene/lights.rs",
     "src/scene/materials.rs",
+    "src/scene/sky.rs",
     "src/scene/snapshot.rs",
     "src/scene/texels.rs",
+    "src/scene/textures.rs",
     "src/scene/upload.rs",
     "src/traced.rs",
 ];

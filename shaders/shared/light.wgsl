@@ -1,6 +1,11 @@
 #define_import_path asvgf::light
 
-#import asvgf::scene::{scene, load_light, texels}
+#import asvgf::scene::{scene, load_light}
+#ifdef ENVIRONMENT_LIGHT
+#import asvgf::scene::{environment, environment_table}
+#import asvgf::packing::unpack_rgb
+#import asvgf::random::hash
+#endif
 #import asvgf::surface::{Visible, Triangle, triangle_now, at}
 #import asvgf::color::luminance
 #import asvgf::material::{PI, surface_at}
@@ -33,18 +38,20 @@ fn choose_light(u: f32) -> u32 {
     return select(light.alias_index, entry, scaled - f32(entry) < light.threshold);
 }
 
-fn environment_texel(direction: vec3<f32>) -> u32 {
+#ifdef ENVIRONMENT_LIGHT
+fn environment_texel(direction: vec3<f32>) -> vec2<u32> {
     let u = 0.5 + atan2(direction.z, direction.x) / (2.0 * PI);
     let v = acos(clamp(direction.y, -1.0, 1.0)) / PI;
     let x = min(u32(clamp(u, 0.0, 1.0) * f32(scene.environment_width)), scene.environment_width - 1u);
     let y = min(u32(v * f32(scene.environment_height)), scene.environment_height - 1u);
-    return y * scene.environment_width + x;
+    return vec2(x, y);
 }
 
-fn texel_radiance(texel: u32) -> vec3<f32> {
-    let i = scene.environment_texels + texel * 3u;
-    return vec3(bitcast<f32>(texels[i]), bitcast<f32>(texels[i + 1u]), bitcast<f32>(texels[i + 2u]));
+// Half of it is packed, as that format ends at half of the largest f32.
+fn texel_radiance(texel: vec2<u32>) -> vec3<f32> {
+    return 2.0 * unpack_rgb(textureLoad(environment, texel, 0).xy);
 }
+#endif
 
 fn environment_radiance(direction: vec3<f32>) -> vec3<f32> {
 #ifdef ENVIRONMENT_LIGHT
@@ -88,19 +95,36 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
 #endif
 #ifdef ENVIRONMENT_LIGHT
     if light.kind == ENVIRONMENT {
-        // Alias table over texels, then uniform in solid angle within the texel.
-        let count = scene.environment_width * scene.environment_height;
-        let scaled = u.x * f32(count);
-        let entry = min(u32(scaled), count - 1u);
-        let i = scene.environment_alias + entry * 2u;
-        let within = scaled - f32(entry);
-        let threshold = bitcast<f32>(texels[i]);
+        // Alias table over cells, then along the cell's texels, then uniform in solid angle within the texel. The 24 bits of a
+        // number would be used up by choosing one of a million cells, and the thresholds of the dark ones below the last of them:
+        // a hash of both numbers gives 32 more.
+        let more = hash(bitcast<u32>(u.x) ^ hash(bitcast<u32>(u.y)));
+        let number = u32(u.x * 16777216.0);
+        let bits = scene.environment_cells & 255u;
+        let column_bits = scene.environment_cells >> 8u;
+        let entry = number >> (24u - bits);
+        let within = f32((number << (8u + bits)) | (more >> (24u - bits))) * (1.0 / 4294967296.0);
+        let choice = textureLoad(environment_table, vec2(entry & 4095u, entry >> 12u), 0);
+        let threshold = bitcast<f32>(choice.x);
         let kept = within < threshold;
-        let texel = select(texels[i + 1u], entry, kept);
+        let cell = select(choice.y, entry, kept);
+        let row = cell >> column_bits;
+        let first = (cell & ((1u << column_bits) - 1u)) << scene.environment_run;
+        let last = min(first + (1u << scene.environment_run), scene.environment_width) - 1u;
+        var share = bitcast<f32>(select(choice.w, choice.z, kept)) * (f32(hash(more)) * (1.0 / 4294967296.0));
+        var column = first;
+        loop {
+            s.radiance = texel_radiance(vec2(column, row));
+            let brightness = luminance(s.radiance);
+            if share < brightness || column >= last {
+                break;
+            }
+            share -= brightness;
+            column += 1u;
+        }
         // The rest of the number is as good as new.
         let rest = select((within - threshold) / max(1.0 - threshold, 1e-9), within / max(threshold, 1e-9), kept);
-        let x = f32(texel % scene.environment_width) + clamp(rest, 0.0, 0.999999);
-        let row = texel / scene.environment_width;
+        let x = f32(column) + clamp(rest, 0.0, 0.999999);
         let low = cos(PI * f32(row) / f32(scene.environment_height));
         let high = cos(PI * f32(row + 1u) / f32(scene.environment_height));
         let y = mix(low, high, u.y);
@@ -108,7 +132,6 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         let radius = sqrt(max(1.0 - y * y, 0.0));
         s.direction = vec3(radius * cos(azimuth), y, radius * sin(azimuth));
         s.distance = 1e30;
-        s.radiance = texel_radiance(texel);
         s.density = environment_density(s.radiance);
         s.has_area = true;
         return s;

@@ -10,10 +10,12 @@ struct Scene {
     light_count: u32,
     // Light index of the environment, or 0xffffffff.
     environment_light: u32,
-    environment_texels: u32,
-    environment_alias: u32,
     environment_width: u32,
     environment_height: u32,
+    // log₂ of the texels of a cell of `environment_table`.
+    environment_run: u32,
+    // log₂ of all cells, and 8 bits up that of the cells of a row.
+    environment_cells: u32,
     // Words per triangle in `attributes`, and where the two sets of texture coordinates begin in them.
     attribute_stride: u32,
     uv_first: u32,
@@ -48,11 +50,19 @@ struct Scene {
 // Materials and lights, the structs below texel by texel.
 @group(1) @binding(5) var materials: texture_2d<u32>;
 @group(1) @binding(6) var lights: texture_2d<u32>;
-// RGBA8 texels of all images; the environment's radiances and alias table as f32 bits.
-@group(1) @binding(7) var<storage, read> texels: array<u32>;
+// RGBA8 texels of all images; folded into layers as in src/scene/texels.rs where a buffer cannot hold them.
+#ifdef FOLDED_IMAGES
+@group(1) @binding(7) var images: texture_2d_array<u32>;
+#else
+@group(1) @binding(7) var<storage, read> images: array<u32>;
+#endif
+// Radiances, packed as in src/scene/sky.rs.
+@group(1) @binding(10) var environment: texture_2d<u32>;
+// Alias table over the cells of the environment: threshold, the other cell, luminance of this cell and of that.
+@group(1) @binding(11) var environment_table: texture_2d<u32>;
 
 struct TextureUse {
-    // First texel in `texels`.
+    // First texel in `images`.
     first: u32,
     width: u32,
     height: u32,
@@ -130,6 +140,14 @@ fn material_word(i: u32) -> vec4<u32> {
 
 fn light_word(i: u32) -> vec4<u32> {
     return textureLoad(lights, vec2(i & 4095u, i >> 12u), 0);
+}
+
+fn image_word(i: u32) -> u32 {
+#ifdef FOLDED_IMAGES
+    return textureLoad(images, vec2(i & 4095u, (i >> 12u) & 1023u), i >> 22u, 0).x;
+#else
+    return images[i];
+#endif
 }
 
 fn texture_use(first: u32) -> TextureUse {

@@ -1,11 +1,11 @@
 #define_import_path asvgf::texture
 
-#import asvgf::scene::{scene, texels, attributes, load_material, geometry_word, TextureUse, CULLED, BLENDED}
+#import asvgf::scene::{scene, image_word, attributes, load_material, geometry_word, TextureUse, CULLED, BLENDED}
 #ifdef ALPHA_BLEND
 #import asvgf::random::hash
 #endif
 
-// Images lie in one storage buffer, as no GPU is sure to have arrays of differently sized textures.
+// Images lie in one buffer or texture, because not every GPU has arrays of differently sized textures.
 
 fn texture_coordinates(row: u32, barycentrics: vec2<f32>, uv_set: u32) -> vec2<f32> {
     let first = row * scene.attribute_stride + select(scene.uv_first, scene.uv_second, uv_set != 0u);
@@ -33,7 +33,7 @@ fn srgb_to_linear(c: vec3<f32>) -> vec3<f32> {
 fn texel(image: TextureUse, x: i32, y: i32, srgb: bool) -> vec4<f32> {
     let u = wrap(x, i32(image.width), image.mode & 3u);
     let v = wrap(y, i32(image.height), (image.mode >> 2u) & 3u);
-    let c = unpack4x8unorm(texels[image.first + u32(v) * image.width + u32(u)]);
+    let c = unpack4x8unorm(image_word(image.first + u32(v) * image.width + u32(u)));
     if srgb {
         return vec4(srgb_to_linear(c.xyz), c.w);
     }

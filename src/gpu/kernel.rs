@@ -148,13 +148,13 @@ fn binding_type(module: &Module, variable: &naga::GlobalVariable) -> Option<Bind
             Some(buffer(BufferBindingType::Storage { read_only: !access.contains(StorageAccess::STORE) }))
         }
         _ => match module.types[variable.ty].inner {
-            TypeInner::Image { class: ImageClass::Sampled { kind, .. }, .. } => Some(BindingType::Texture {
+            TypeInner::Image { class: ImageClass::Sampled { kind, .. }, arrayed, .. } => Some(BindingType::Texture {
                 sample_type: match kind {
                     ScalarKind::Uint => TextureSampleType::Uint,
                     ScalarKind::Sint => TextureSampleType::Sint,
                     _ => TextureSampleType::Float { filterable: false },
                 },
-                view_dimension: TextureViewDimension::D2,
+                view_dimension: if arrayed { TextureViewDimension::D2Array } else { TextureViewDimension::D2 },
                 multisampled: false,
             }),
             TypeInner::Image { class: ImageClass::Storage { format, access }, .. } => {

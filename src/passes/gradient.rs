@@ -7,8 +7,14 @@ const FEATURES: &[Feature] =
     &[Feature::BlinnPhong, Feature::Pairs, Feature::HistoryRatio, Feature::SignedGradient, Feature::Outliers];
 
 /// What Blinn–Phong shading reads of the scene.
-const SURFACE: &[Feature] =
-    &[Feature::Instanced, Feature::Textures, Feature::ShadingNormals, Feature::VertexColors, Feature::Specular];
+const SURFACE: &[Feature] = &[
+    Feature::Instanced,
+    Feature::Textures,
+    Feature::FoldedImages,
+    Feature::ShadingNormals,
+    Feature::VertexColors,
+    Feature::Specular,
+];
 
 /// `pairs` is which of the pair images the pairs' filter left its result in.
 pub(crate) fn step(features: Features, pairs: u8) -> Step {

@@ -161,6 +161,7 @@ impl Pass {
 const GEOMETRY: &[Feature] = &[
     Feature::Instanced,
     Feature::Textures,
+    Feature::FoldedImages,
     Feature::ShadingNormals,
     Feature::VertexColors,
     Feature::AlphaMask,

@@ -7,7 +7,7 @@ pub(crate) fn step(features: Features) -> Step {
     // Textures matter here only where they cut holes.
     let mut features = features.and(Features::of(GEOMETRY).with(Feature::Objects));
     if !features.has(Feature::AlphaMask) {
-        features = features.without(Feature::Textures);
+        features = features.without(Feature::Textures).without(Feature::FoldedImages);
     }
     Step {
         pass: Pass::Visibility,

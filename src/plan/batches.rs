@@ -32,7 +32,8 @@ impl Batches {
         let rounds_per_ray = if traits.few_triangles { 1 } else { 1 + ROUNDS_PER_LEVEL * traits.levels };
         // One towards a light and one onwards from each surface.
         let surfaces = 1 + tracer.bounces.min(tracer.roulette.saturating_add(ROULETTE_REACH));
-        let rounds = surfaces.saturating_mul(2).saturating_mul(rounds_per_ray);
+        let rounds_per_surface = traits.environment_run.saturating_add(2 * rounds_per_ray);
+        let rounds = surfaces.saturating_mul(rounds_per_surface);
         let most = (MOST_ROUNDS / rounds.max(1)).max(1);
         let dispatches = tracer.samples.div_ceil(most).max(1);
         Self { samples: tracer.samples, each: tracer.samples.div_ceil(dispatches).max(1) }
@@ -81,6 +82,13 @@ mod tests {
         assert_eq!(batches(16, 3, 20).count(), 2);
         assert!(batches(1024, 3, 12).count() < batches(1024, 3, 28).count());
         assert!(batches(1024, 0, 12).count() < batches(1024, 8, 12).count());
+        let of_run = |environment_run| {
+            Batches::of(
+                &Traits { few_triangles: true, environment_run, ..Default::default() },
+                &TracerSettings { samples: 1024, ..Default::default() },
+            )
+        };
+        assert!(of_run(32).count() > of_run(1).count(), "texels of a cell are rounds too");
         // Roulette ends paths long before so many bounces.
         assert_eq!(batches(1024, 100, 12), batches(1024, 1024, 12));
     }

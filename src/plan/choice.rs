@@ -31,6 +31,11 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
             traits.textures,
             ["a material has an image", "no material has an image: no coordinates, no look-up"],
         ),
+        (
+            FoldedImages,
+            traits.textures && traits.folded_images,
+            ["images are larger than a storage binding: a texture holds them", "a buffer holds what images there are"],
+        ),
         (ShadingNormals, traits.shading_normals, ["a mesh has normals", "no mesh has: cross products of the edges do"]),
         (
             VertexColors,

@@ -25,6 +25,8 @@ features! {
     Instanced,
     /// Image look-ups.
     Textures,
+    /// Images are fetched from a texture, because they are larger than a storage binding.
+    FoldedImages,
     /// Interpolated normals.
     ShadingNormals,
     /// Colours at the vertices.
@@ -167,7 +169,7 @@ impl Feature {
 
 /// A set of [`Feature`]s.
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Features(u64);
+pub struct Features(u128);
 
 impl Features {
     /// The features of a list.

@@ -7,6 +7,8 @@ pub struct Traits {
     pub instanced: bool,
     /// Materials have textures.
     pub textures: bool,
+    /// Images together are larger than a storage binding.
+    pub folded_images: bool,
     /// Meshes have interpolated normals.
     pub shading_normals: bool,
     /// Meshes have colours at their vertices.
@@ -23,6 +25,8 @@ pub struct Traits {
     pub punctual_lights: bool,
     /// There is an environment that is not black.
     pub environment: bool,
+    /// Texels of it that a light sample chooses among at the end, one by one.
+    pub environment_run: u32,
     /// Some material is shown unlit.
     pub unlit: bool,
     /// So few triangles, on an adapter that is the CPU, that testing each is faster than a tree.

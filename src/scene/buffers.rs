@@ -25,8 +25,7 @@ pub(super) fn check_size(device: &Device, element: &str, bytes: usize) -> Result
         return Ok(());
     }
     let reason = format!(
-        "take {bytes} bytes, the device's max_storage_buffer_binding_size is {limit}: raise it, or use fewer triangles or \
-         smaller images"
+        "take {bytes} bytes, the device's max_storage_buffer_binding_size is {limit}: raise it, or use fewer triangles"
     );
     Err(SceneError { file: "scene".into(), element: element.into(), reason })
 }

@@ -12,8 +12,10 @@ mod lights;
 mod materials;
 mod measure;
 mod pose;
+mod sky;
 mod snapshot;
 mod texels;
+mod textures;
 mod upload;
 mod validate;
 
@@ -31,5 +33,7 @@ pub use description::*;
 #[cfg(any(feature = "gltf", feature = "obj"))]
 pub use load::{Loaded, load, load_from_memory};
 pub use pose::CameraView;
+#[cfg(test)]
+pub(crate) use sky::{pack, unpack};
 pub(crate) use snapshot::Snapshot;
 pub use upload::GpuScene;

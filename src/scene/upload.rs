@@ -7,8 +7,10 @@ use super::folded::{self, Texel};
 use super::geometry::{self, Geometry};
 use super::instances::{self, Instance, NODE_TEXELS, top_level_nodes, top_level_texels};
 use super::lights::{self, AnalyticLight, Emitter, GpuLight};
+use super::sky::Sky;
 use super::snapshot::{Snapshot, Visible};
-use super::texels::{self, Place};
+use super::texels::{self, Images, Place};
+use super::textures;
 use super::{Light, Material, Matrix, Pose, Scene, SceneError, materials};
 use crate::plan::{Traits, Traversal};
 use bytemuck::{Pod, Zeroable};
@@ -60,9 +62,10 @@ struct Buffers {
     scene: Buffer,
     geometry: (Texture, TextureView),
     attributes: Buffer,
-    texels: Buffer,
+    images: Images,
     materials: (Texture, TextureView),
     lights: (Texture, TextureView),
+    sky: Option<Sky>,
     facets: Buffer,
     facet_owners: Buffer,
 }
@@ -83,10 +86,10 @@ struct Header {
     instance_count: u32,
     light_count: u32,
     environment_light: u32,
-    environment_texels: u32,
-    environment_alias: u32,
     environment_width: u32,
     environment_height: u32,
+    environment_run: u32,
+    environment_cells: u32,
     attribute_stride: u32,
     uv0: u32,
     uv1: u32,
@@ -108,7 +111,7 @@ impl GpuScene {
     /// Builds the trees and uploads everything at rest. [`GpuScene::update`] then moves it.
     ///
     /// # Errors
-    /// [`Scene::validate`]'s, and one that names the part of the scene that is larger than the device's storage bindings.
+    /// [`Scene::validate`]'s, and one that names the part of the scene that is larger than the device's textures or storage bindings.
     pub fn new(device: &Device, queue: &Queue, scene: &Scene) -> Result<Self, SceneError> {
         scene.validate()?;
         let pose = scene.pose(None, 0.0);
@@ -181,8 +184,7 @@ impl GpuScene {
                 powers.push(lights::punctual_power(&light, radius));
             }
         }
-        let mut words = Vec::new();
-        let images = texels::add_images(&scene.images, &mut words);
+        let images = texels::places(device, &scene.images)?;
         let layout = geometry.layout;
         let mut header = Header {
             instances: (top + top_level_nodes(instance_count) * NODE_TEXELS) as u32,
@@ -195,31 +197,32 @@ impl GpuScene {
             color_first: layout.color.unwrap_or(0) as u32,
             ..Default::default()
         };
-        let mut environment_weight = 0.0;
-        if let Some(environment) = &scene.environment {
-            let place = texels::add_environment(environment, &mut words);
-            environment_weight = place.weight;
-            if place.weight > 0.0 {
-                header.environment_light = light_table.len() as u32;
-                header.environment_texels = place.radiance;
-                header.environment_alias = place.alias;
-                header.environment_width = environment.width;
-                header.environment_height = environment.height;
-                light_table.push(GpuLight { kind: lights::ENVIRONMENT, ..Default::default() });
-                powers.push(place.weight * PI * radius * radius);
-            }
+        let sky = match &scene.environment {
+            Some(environment) => Sky::new(device, queue, environment)?,
+            None => None,
+        };
+        if let Some(sky) = &sky {
+            header.environment_light = light_table.len() as u32;
+            [header.environment_width, header.environment_height] = sky.size();
+            header.environment_run = sky.cells.run;
+            header.environment_cells = sky.cells.all | sky.cells.columns << 8;
+            light_table.push(GpuLight { kind: lights::ENVIRONMENT, ..Default::default() });
+            powers.push(sky.weight * PI * radius * radius);
         }
         traits.instanced = instanced;
         traits.punctual_lights = !punctual.is_empty();
-        traits.environment = environment_weight > 0.0;
+        let image_texels = Images::new(device, queue, &scene.images);
+        traits.folded_images = image_texels.are_folded();
+        traits.environment = sky.is_some();
+        traits.environment_run = sky.as_ref().map_or(0, |sky| 1 << sky.cells.run);
         traits.emitters &= first_punctual > 0;
         // Ids are numbered through all instances, so the next one is their triangles' number.
         traits.few_triangles = device.adapter_info().device_type == DeviceType::Cpu
             && next_id as usize <= facets::MOST
             && !traits.alpha_mask;
         lights::assign_probabilities(&mut light_table, &powers);
-        if let Some(light) = light_table.get(header.environment_light as usize) {
-            header.environment_density = (f64::from(light.pmf) / environment_weight) as f32;
+        if let (Some(sky), Some(light)) = (&sky, light_table.last()) {
+            header.environment_density = (f64::from(light.pmf) / sky.weight) as f32;
         }
         header.light_count = light_table.len() as u32;
 
@@ -237,7 +240,6 @@ impl GpuScene {
         texels.resize(top + top_texels, Texel::default());
         texels.extend_from_slice(folded::texels(&geometry.nodes));
         check_texels(device, "triangles and their trees", texels.len())?;
-        check_size(device, "images", size_of_val(words.as_slice()))?;
         check_size(device, "normals and texture coordinates", size_of_val(geometry.attributes.as_slice()))?;
         let empty = storage(device, "placeholder", &[0_u32; 4], 16);
         let folded = |label: &str, texels: &[Texel]| {
@@ -273,13 +275,14 @@ impl GpuScene {
                 scene: buffer(device, "scene", bytemuck::bytes_of(&header), BufferUsages::UNIFORM),
                 geometry: folded("geometry", &texels),
                 attributes: storage(device, "normals and texture coordinates", &geometry.attributes, 4),
-                texels: storage(device, "texels", &words, 4),
+                images: image_texels,
                 materials: {
                     let materials = materials::materials(&scene.materials, &pose.emission, &images);
                     folded("materials", folded::texels(&materials))
                 },
                 // As above.
                 lights: folded("lights", &[]),
+                sky,
                 facets: empty.clone(),
                 facet_owners: empty,
             },
@@ -346,10 +349,10 @@ impl GpuScene {
     /// Bytes of GPU memory that the scene takes.
     pub fn memory(&self) -> u64 {
         let b = &self.buffers;
-        let texels = |t: &Texture| u64::from(t.width()) * u64::from(t.height()) * size_of::<Texel>() as u64;
-        let textures = [&b.geometry.0, &b.materials.0, &b.lights.0];
-        let buffers = [&b.attributes, &b.texels, &b.facets, &b.facet_owners];
-        textures.map(texels).iter().sum::<u64>() + buffers.iter().map(|b| b.size()).sum::<u64>()
+        let sky = b.sky.iter().flat_map(|sky| [&sky.radiance.0, &sky.table.0]);
+        let textures = [&b.geometry.0, &b.materials.0, &b.lights.0].into_iter().chain(sky);
+        let buffers = [&b.attributes, &b.facets, &b.facet_owners];
+        textures.map(textures::bytes).sum::<u64>() + buffers.iter().map(|b| b.size()).sum::<u64>() + b.images.bytes()
     }
 
     /// The scene as paths see it now.
@@ -381,9 +384,11 @@ impl GpuScene {
             "geometry" => return Some(BindingResource::TextureView(&b.geometry.1)),
             "materials" => return Some(BindingResource::TextureView(&b.materials.1)),
             "lights" => return Some(BindingResource::TextureView(&b.lights.1)),
+            "images" => return Some(b.images.resource()),
+            "environment" => return Some(BindingResource::TextureView(&b.sky.as_ref()?.radiance.1)),
+            "environment_table" => return Some(BindingResource::TextureView(&b.sky.as_ref()?.table.1)),
             "scene" => &b.scene,
             "attributes" => &b.attributes,
-            "texels" => &b.texels,
             "facets" => &b.facets,
             "facet_owners" => &b.facet_owners,
             "analytic_lights" => &self.snapshot.analytic_lights,
@@ -468,8 +473,8 @@ mod tests {
 
     #[test]
     fn the_scene_lies_where_the_shaders_read_it() {
-        let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_texels,
-            environment_alias, environment_width, environment_height, attribute_stride, uv0 as "uv_first",
+        let header = fields!(Header: instances, instance_count, light_count, environment_light, environment_width,
+            environment_height, environment_run, environment_cells, attribute_stride, uv0 as "uv_first",
             uv1 as "uv_second", environment_density, grid_base, root, grid_step, color_first);
         assert_layout("Scene", header, size_of::<Header>());
         let light = fields!(GpuLight: kind, alias as "alias_index", threshold, pmf, position, triangle, axis, instance,

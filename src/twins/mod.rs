@@ -35,6 +35,7 @@ mod packing;
 mod properties;
 mod reshade;
 mod resolve;
+mod sky;
 mod steady;
 mod strata;
 mod temporal;

@@ -12,6 +12,7 @@ use wgpu::naga::Module;
 const ALL: Traits = Traits {
     instanced: true,
     textures: true,
+    folded_images: false,
     shading_normals: true,
     vertex_colors: true,
     specular: true,
@@ -20,6 +21,7 @@ const ALL: Traits = Traits {
     emitters: true,
     punctual_lights: true,
     environment: true,
+    environment_run: 1,
     unlit: true,
     few_triangles: false,
     levels: 8,
@@ -95,7 +97,14 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "passes_through",
         "start_of_path",
     ][..];
-    let sky = &["environment_density", "environment_texel", "texel_radiance"][..];
+    let sky = &[
+        "environment",
+        "environment_density",
+        "environment_table",
+        "environment_texel",
+        "texel_radiance",
+        "unpack_rgb",
+    ][..];
     let cases: [(Traits, &[&str]); 10] = [
         (Traits { instanced: false, ..ALL }, moving),
         (Traits { textures: false, ..ALL }, images),

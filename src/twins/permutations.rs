@@ -5,7 +5,7 @@ use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::passes::{self, Pass};
 use crate::plan::{Changes, Feature, Features, HostTraits, Plan, Step, Traits, Traversal};
-use crate::scene::{GpuScene, builtin};
+use crate::scene::{Environment, GpuScene, Scene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
 use std::collections::{BTreeMap, BTreeSet};
@@ -28,7 +28,9 @@ fn noop_device() -> (Device, Queue) {
 
 /// All combinations: at some 150 shaders a second they are checked in a quarter of a minute.
 fn traits() -> Vec<Traits> {
-    (0_u32..4096)
+    (0_u32..8192)
+        // Only images may be folded. It changes one function, and is tried with a part of the rest.
+        .filter(|bits| bits >> 12 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1101_0110_0000 == 0)
         // Where each triangle is tested, there is no alpha mask.
         .filter(|bits| bits >> 4 & 1 == 0 || bits >> 9 & 1 == 0)
         // Colours of vertices have nothing in common with the kinds of light.
@@ -50,6 +52,7 @@ fn traits() -> Vec<Traits> {
                 few_triangles: bit(9),
                 vertex_colors: bit(10),
                 alpha_blend: bit(11),
+                folded_images: bit(12),
                 ..Default::default()
             }
         })
@@ -269,7 +272,9 @@ fn check(device: &Device, scene: &GpuScene, shaders: &mut Shaders, permutation: 
 #[test]
 fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
     let (device, queue) = noop_device();
-    let scene = GpuScene::new(&device, &queue, &builtin::scene("cornell", "static").unwrap()).unwrap();
+    let sky = Some(Environment::uniform([1.0; 3]));
+    let scene = Scene { environment: sky, ..builtin::scene("cornell", "static").unwrap() };
+    let scene = GpuScene::new(&device, &queue, &scene).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     let steps = steps();
     let mut counts = BTreeMap::<&str, usize>::new();
@@ -289,7 +294,9 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
 #[test]
 fn every_size_of_stack_and_of_few_triangles_compiles() {
     let (device, queue) = noop_device();
-    let scene = GpuScene::new(&device, &queue, &builtin::scene("pillars", "all").unwrap()).unwrap();
+    let sky = Some(Environment::uniform([1.0; 3]));
+    let scene = Scene { environment: sky, ..builtin::scene("pillars", "all").unwrap() };
+    let scene = GpuScene::new(&device, &queue, &scene).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     for (permutation, step) in traversals() {
         check(&device, &scene, &mut shaders, permutation, &step);

@@ -3,6 +3,7 @@
 mod agreement;
 mod area;
 mod furnace;
+mod large;
 mod materials;
 mod paths;
 mod punctual;
