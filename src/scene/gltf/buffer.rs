@@ -9,8 +9,8 @@ use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf::json::Root;
 
-use crate::scene::load::folder::Folder;
-use crate::scene::load::report::Fault;
+use crate::scene::load::folder::{Folder, Located};
+use crate::scene::load::report::{Fault, Report};
 
 /// Padding at the end is often left out.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -19,7 +19,12 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 /// Reads all buffers of a file. Those that name the same file share its bytes.
-pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder<'_>) -> Result<Vec<Rc<[u8]>>, Fault> {
+pub(super) fn read_all(
+    root: &Root,
+    binary: Option<&[u8]>,
+    folder: &Folder<'_>,
+    report: &mut Report,
+) -> Result<Vec<Rc<[u8]>>, Fault> {
     let mut files: HashMap<PathBuf, Rc<[u8]>> = HashMap::new();
     let read = |(index, buffer): (usize, &gltf::json::Buffer)| {
         let element = format!("buffers[{index}]");
@@ -28,7 +33,10 @@ pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder<'_>) 
             (Some(uri), _) => match data_uri(uri) {
                 Some(bytes) => bytes.map_err(fault)?.into(),
                 None => {
-                    let path = folder.locate_uri(uri).map_err(fault)?;
+                    let Located { path, note } = folder.locate_uri(uri).map_err(fault)?;
+                    if let Some(note) = note {
+                        report.warn(&element, note);
+                    }
                     match files.get(&path) {
                         Some(bytes) => bytes.clone(),
                         None => {

@@ -37,7 +37,7 @@ fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fau
     let folder = Folder::of(files, path).map_err(unreadable)?;
     let bytes = files.read(path).map_err(unreadable)?;
     let container = container::open(&bytes, report)?;
-    let buffers = buffer::read_all(&container.root, container.binary, &folder)?;
+    let buffers = buffer::read_all(&container.root, container.binary, &folder, report)?;
     let source = Source { root: container.root, buffers, folder };
 
     let mut scene = Scene::default();
