@@ -109,4 +109,3 @@ fn several_libraries_in_one_statement_and_names_with_spaces() {
         ["a", "b", "c"]
     );
 }
-

@@ -24,12 +24,18 @@ const OBJ_BREAKS: &[(&str, &[&str], bool)] = &[
     ("f 5/1/1 6/2/1 7/3/2", &["f 5/1/1 6/2/1", "f 9/1/1 6/2/1 7/3/2", "f 0/1/1 6/2/1 7/3/2", "f x 6/2/1 7/3/2"], true),
 ];
 const MTL_BREAKS: &[(&str, &[&str])] = &[
-    ("Kd 0.5 0.5 0.5", &["Kd", "Kd 0.5 0.5", "Kd nan 0 0", "Kd x", "Kd 7 7 7", "Kd -1 0 0", "Kd spectral a.rfl", "Kx 1"]),
+    (
+        "Kd 0.5 0.5 0.5",
+        &["Kd", "Kd 0.5 0.5", "Kd nan 0 0", "Kd x", "Kd 7 7 7", "Kd -1 0 0", "Kd spectral a.rfl", "Kx 1"],
+    ),
     ("Ks 0.1 0.1 0.1", &["Ks", "Ks 1 1", "Ks inf 0 0", "Ks 5 0 0", "bump a.png", "Pc 1"]),
     ("Ns 30", &["Ns", "Ns x", "Ns nan", "Ns 1e99"]),
     ("illum 2", &["illum 77", "illum x", "illum 7", "illum"]),
     ("d 1", &["d x", "d", "d nan", "d 0.75", "d 2"]),
-    ("map_Kd a.png", &["map_Kd absent.png", "map_Kd", "map_Kd -what a.png", "map_Kd C:\\maps\\a.png", "map_Kd junk.png"]),
+    (
+        "map_Kd a.png",
+        &["map_Kd absent.png", "map_Kd", "map_Kd -what a.png", "map_Kd C:\\maps\\a.png", "map_Kd junk.png"],
+    ),
     ("map_Pr a.png", &["map_Pr absent.png", "map_Pr", "map_Pr ../../a.png", "map_Pr http://localhost/a.png"]),
     ("Pm 0.5", &["Pm 2", "Pm x", "Pm -1", "Pm", "Pm nan"]),
     ("Ke 1 1 1", &["Ke -1 0 0", "Ke 1 2", "Ke x"]),

@@ -198,7 +198,10 @@ fn attributes_that_are_wrong_cost_themselves() {
         assert_eq!(mesh.normals, [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]], "{index}");
     }
     face("1/2 2/1 3/9", "index 9 is out of range: there are 2 texture coordinates");
-    face("1//9 2//1 3//9", "index 9 is out of range: there are 1 normals; the normal of the face is used (2 corners like this)");
+    face(
+        "1//9 2//1 3//9",
+        "index 9 is out of range: there are 1 normals; the normal of the face is used (2 corners like this)",
+    );
     face("1/1/1/1 2/1/1 3/1/1", "more than three indices; the first three are used");
     face("1/1 2 3/1", "only some corners");
 }
@@ -206,7 +209,9 @@ fn attributes_that_are_wrong_cost_themselves() {
 #[test]
 fn corners_as_exporters_write_them() {
     let text = format!("{SQUARE}vt 0 0\nvn 0 0 1\n");
-    for face in ["1/1/ 2/1/ 3/1/", "1// 2// 3//", "1/ 2/ 3/", "1.0 2.0 3.0", "\t1  2\t 3 ", "1 2 3 # note", "1 2 3#", "+1 2 3"] {
+    for face in
+        ["1/1/ 2/1/ 3/1/", "1// 2// 3//", "1/ 2/ 3/", "1.0 2.0 3.0", "\t1  2\t 3 ", "1 2 3 # note", "1 2 3#", "+1 2 3"]
+    {
         let loaded = read(format!("{text}f {face}\n"), "").unwrap();
         assert_warnings(&loaded, &[]);
         assert_eq!(area(&loaded), 0.5, "{face}");

@@ -59,7 +59,6 @@ fn statements_that_cannot_be_read_are_left_out() {
     );
 }
 
-
 #[test]
 fn roughness_and_metalness() {
     let metal = &material("Kd .9 .6 .3\nPr 0.2\nPm 1.0\nKs 1 1 1\n").scene.materials[0];
@@ -123,7 +122,9 @@ fn colours_in_other_spaces() {
 
 #[test]
 fn names_of_materials() {
-    let used = |name: &str, library: &str| read(format!("mtllib test.mtl\n{SQUARE}usemtl {name}\nf 1 2 3\n"), library).unwrap();
+    let used = |name: &str, library: &str| {
+        read(format!("mtllib test.mtl\n{SQUARE}usemtl {name}\nf 1 2 3\n"), library).unwrap()
+    };
     let drawn = |loaded: &asvgf::scene::Loaded| loaded.scene.materials[loaded.scene.meshes[0].material].name.clone();
     // What may be a comment may be a name.
     let library = "newmtl Material #1\nnewmtl Material #2\nnewmtl plain # note\n";
@@ -139,7 +140,10 @@ fn names_of_materials() {
     assert_warnings(&early, &[("test.mtl line 1", "before the first newmtl")]);
 
     let unnamed = read(format!("{SQUARE}usemtl\nf 1 2 3\nusemtl \nf 1 3 4\no\ng\n"), "").unwrap();
-    assert_warnings(&unnamed, &[("line 5", "there is no name; the faces after it are drawn in the default material (2")]);
+    assert_warnings(
+        &unnamed,
+        &[("line 5", "there is no name; the faces after it are drawn in the default material (2")],
+    );
     assert_eq!(drawn(&unnamed), "default");
     // A file that names no library has the one beside it.
     let unsaid = read(format!("{SQUARE}usemtl a\nf 1 2 3\n"), "newmtl a\nKd 1 0 0\n").unwrap();

@@ -72,7 +72,8 @@ fn groups_and_sharp_angles_split() {
     // Two quads that meet at 45°.
     let bend = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nv 2 1 1\n";
     let [left, right] = ["f 1 2 3 4\n", "f 2 5 6 3\n"];
-    let along = |at: f32| move |position: Vec3| if position.x < at { Vec3::Z } else { Vec3::new(-1.0, 0.0, 1.0).normalize() };
+    let along =
+        |at: f32| move |position: Vec3| if position.x < at { Vec3::Z } else { Vec3::new(-1.0, 0.0, 1.0).normalize() };
     let split = read(format!("{bend}s 1\n{left}s 2\n{right}"), "").unwrap();
     assert_eq!(split.scene.meshes[0].positions.len(), 8);
     let normals = |mesh: &Mesh| mesh.normals.clone();

@@ -62,7 +62,8 @@ fn utf_16_and_code_pages() {
     assert_eq!(loaded.scene.materials[0].base_color, [1.0, 0.0, 0.0, 1.0]);
 
     let text = format!("mtllib test.mtl\n{SQUARE}usemtl é\nf 1 2 3 4\n");
-    let wide = |text: &str, mark: &str, bytes: fn(u16) -> [u8; 2]| le(format!("{mark}{text}").encode_utf16().map(bytes));
+    let wide =
+        |text: &str, mark: &str, bytes: fn(u16) -> [u8; 2]| le(format!("{mark}{text}").encode_utf16().map(bytes));
     for mark in ["\u{FEFF}", ""] {
         for bytes in [u16::to_le_bytes as fn(u16) -> [u8; 2], u16::to_be_bytes] {
             let loaded = read(wide(&text, mark, bytes), wide("newmtl é\nKd 1 0 0\n", mark, bytes)).unwrap();

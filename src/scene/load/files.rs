@@ -50,7 +50,9 @@ impl<'a> Files<'a> {
     pub fn list(self, root: &Path) -> Vec<PathBuf> {
         match self {
             Self::Disk => list(root),
-            Self::Memory(files) => files.keys().filter(|path| path.starts_with(root)).take(MAX_LISTED).cloned().collect(),
+            Self::Memory(files) => {
+                files.keys().filter(|path| path.starts_with(root)).take(MAX_LISTED).cloned().collect()
+            }
         }
     }
 
@@ -108,7 +110,10 @@ fn list(root: &Path) -> Vec<PathBuf> {
                     Ok(kind) if kind.is_dir() => below.push(path),
                     Ok(kind) if kind.is_file() => found.push(path),
                     Ok(kind) if kind.is_symlink() => {
-                        found.extend(path.canonicalize().ok().filter(|path| path.starts_with(root) && path.is_file()));
+                        let target = path.canonicalize();
+                        if target.is_ok_and(|target| target.starts_with(root) && target.is_file()) {
+                            found.push(path);
+                        }
                     }
                     _ => {}
                 }

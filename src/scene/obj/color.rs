@@ -70,7 +70,8 @@ impl Colors {
                 *color = WHITE;
                 continue;
             }
-            let scaled: [f32; 4] = std::array::from_fn(|i| if color[i] == f32::INFINITY { 1.0 } else { color[i] / divisors[i] });
+            let scaled: [f32; 4] =
+                std::array::from_fn(|i| if color[i] == f32::INFINITY { 1.0 } else { color[i] / divisors[i] });
             clamped += usize::from(scaled.iter().any(|x| !(1.0 - ROUNDING..=ROUNDING).contains(x)));
             let [r, g, b, alpha] = scaled.map(|x| x.clamp(0.0, 1.0));
             *color = [linear_from_srgb(r), linear_from_srgb(g), linear_from_srgb(b), alpha];

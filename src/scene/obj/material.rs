@@ -85,7 +85,8 @@ impl Source {
         let opacity = self.opacity(color_map, opacity_map, textures, element, report);
         self.warn_transmission(model, opacity.factor < 1.0, element, report);
         let emissive_texture = emissive_map.map(|(raw, map)| textures.plain(raw, map));
-        let emissive = self.emissive.filter(|&emissive| strongest(emissive) > 0.0);
+        let emissive = self.emissive.map(|emissive| report.clamp_radiance(emissive, || element.clone()));
+        let emissive = emissive.filter(|&emissive| strongest(emissive) > 0.0);
         let emissive = emissive.unwrap_or([if emissive_texture.is_some() { 1.0 } else { 0.0 }; 3]);
         let metallic_roughness_texture = surface(surface_maps, textures, element, report);
         let [rough, metallic] = surface_maps.map(|map| map.is_some() && metallic_roughness_texture.is_some());
@@ -104,7 +105,7 @@ impl Source {
                 None => self.shininess.map_or(1.0, roughness),
             },
             metallic_roughness_texture,
-            emissive: report.clamp_radiance(emissive, || element.clone()),
+            emissive,
             emissive_texture,
             alpha: opacity.alpha,
             // Windings in OBJ files are not to be relied on.

@@ -142,7 +142,10 @@ fn normal(ring: &[DVec3]) -> Option<(DVec3, bool)> {
     if sum.length() > NEGLIGIBLE * whole {
         return Some((sum, true));
     }
-    parts().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).filter(|&part| part != DVec3::ZERO).map(|part| (part, false))
+    parts()
+        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
+        .filter(|&part| part != DVec3::ZERO)
+        .map(|part| (part, false))
 }
 
 /// Drops the coordinate along which the plane is seen most squarely. The front turns counter-clockwise.

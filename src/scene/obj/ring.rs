@@ -12,15 +12,20 @@ pub(super) fn is_convex(ring: &[[f64; 2]]) -> bool {
     let Some(&first) = ring.first() else { return false };
     let next = ring.iter().cycle();
     let corners = ring.iter().zip(next.clone().skip(1)).zip(next.skip(2));
-    // All turns are to the left, and so are all triangles of the fan: there is just one round.
-    corners.into_iter().all(|((&a, &b), &c)| cross(a, b, c) >= 0.0)
+    // All turns are to the left, and so are all triangles of the fan, and no place comes twice: there is just one round.
+    places(ring) == ring.len()
+        && corners.into_iter().all(|((&a, &b), &c)| cross(a, b, c) >= 0.0)
         && ring.array_windows::<2>().all(|&[a, b]| cross(first, a, b) >= 0.0)
 }
 
 /// Whether a polygon of many corners is surely no simple one. Clipping ears would take very long to find that out.
 pub(super) fn is_tangled(ring: &[[f64; 2]]) -> bool {
-    let places: HashSet<[u64; 2]> = ring.iter().map(|corner| corner.map(f64::to_bits)).collect();
-    places.len() * 2 < ring.len() || has_crossing(ring)
+    places(ring) * 2 < ring.len() || has_crossing(ring)
+}
+
+/// How many different places the corners have.
+fn places(ring: &[[f64; 2]]) -> usize {
+    ring.iter().map(|corner| corner.map(f64::to_bits)).collect::<HashSet<_>>().len()
 }
 
 /// Looks for edges that cross, in a sweep along the first coordinate that ends after some time.

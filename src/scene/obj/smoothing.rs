@@ -80,7 +80,8 @@ impl Open {
             let parts = std::iter::zip(parts, firsts).filter(|(part, _)| part.normals);
             parts.flat_map(|(part, &first)| (first..).zip(part.triangles.as_flattened()))
         };
-        let open = || open().filter(|(_, corner)| corner[2] == NONE).map(|(number, corner)| (number, corner[0] as usize));
+        let open =
+            || open().filter(|(_, corner)| corner[2] == NONE).map(|(number, corner)| (number, corner[0] as usize));
         let mut starts = Vec::new();
         for (_, vertex) in open() {
             if starts.is_empty() {

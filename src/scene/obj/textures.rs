@@ -86,11 +86,11 @@ impl<'a> Textures<'a> {
                 return None;
             }
         };
+        if let Some(note) = note {
+            report.warn_once(element, note);
+        }
         if let Some(&known) = self.by_path.get(&path) {
             return known.map(Raw);
-        }
-        if let Some(note) = note {
-            report.warn(element, note);
         }
         let decoded = self.folder.read(&path).and_then(|bytes| decode(short, &bytes));
         let number = decoded.and_then(|image| self.reserve(image.texels.len()).map(|()| image)).map(|image| {
@@ -124,10 +124,8 @@ impl<'a> Textures<'a> {
             let color = color.map(|(raw, _)| textures.image(raw));
             let [width, height] = larger(color.map(size), Some(mask.dimensions()));
             let mask = resized(&mask, width, height);
-            let mut texels = color.map_or_else(
-                || vec![[255; 4]; mask.len()],
-                |color| resized_color(color, width, height),
-            );
+            let mut texels =
+                color.map_or_else(|| vec![[255; 4]; mask.len()], |color| resized_color(color, width, height));
             for (texel, opacity) in texels.iter_mut().zip(mask) {
                 texel[3] = opacity;
             }
@@ -146,8 +144,8 @@ impl<'a> Textures<'a> {
                 channels[1].as_ref().map(ImageBuffer::dimensions),
             );
             let count = width as usize * height as usize;
-            let [green, blue] =
-                channels.map(|channel| channel.map_or_else(|| vec![255; count], |channel| resized(&channel, width, height)));
+            let [green, blue] = channels
+                .map(|channel| channel.map_or_else(|| vec![255; count], |channel| resized(&channel, width, height)));
             let texels = std::iter::zip(green, blue).map(|(green, blue)| [255, green, blue, 255]).collect();
             Image { name: textures.image(first).name.clone(), width, height, texels }
         });
