@@ -65,7 +65,7 @@ fn faces_with_and_without_attributes_may_mix() {
 #[test]
 fn switching_materials_often_does_not_multiply_meshes() {
     let faces = "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n".repeat(50);
-    let loaded = read(&format!("mtllib test.mtl\n{SQUARE}o thing\n{faces}"), "newmtl a\nnewmtl b\n").unwrap();
+    let loaded = read(format!("mtllib test.mtl\n{SQUARE}o thing\n{faces}"), "newmtl a\nnewmtl b\n").unwrap();
     assert_eq!(loaded.scene.meshes.len(), 2);
     assert_eq!(loaded.scene.triangle_count(), 100);
 }

@@ -11,11 +11,11 @@ use crate::obj::{SQUARE, corners, read};
 
 #[test]
 fn polygons_are_triangulated() {
-    let loaded = read(&format!("{SQUARE}f 1 2 3 4\nf 1 2 3\n"), "").unwrap();
+    let loaded = read(format!("{SQUARE}f 1 2 3 4\nf 1 2 3\n"), "").unwrap();
     assert_warnings(&loaded, &[]);
     assert_eq!(loaded.scene.triangle_count(), 3);
     assert_eq!(area(&loaded), 1.5);
-    let pentagon = read(&format!("{SQUARE}v -0.5 0.5 0\nf 1 2 3 4 5\n"), "").unwrap();
+    let pentagon = read(format!("{SQUARE}v -0.5 0.5 0\nf 1 2 3 4 5\n"), "").unwrap();
     assert_eq!((pentagon.scene.triangle_count(), area(&pentagon)), (3, 1.25));
     let material = &pentagon.scene.materials[pentagon.scene.meshes[0].material];
     assert_eq!((material.base_color, material.metallic, material.specular), ([0.8, 0.8, 0.8, 1.0], 0.0, [0.0; 3]));
