@@ -6,9 +6,9 @@
 mod channels;
 mod exr_file;
 mod files;
-mod png;
 #[cfg(feature = "path-tracer")]
-mod recognise;
+mod format;
+mod png;
 
 pub use channels::{Channels, read_exr, write_exr, write_exr_rgb};
 pub use exr_file::{Attribute, Compression, ExrFile, SampleType, Window};
@@ -16,7 +16,7 @@ pub use png::{read_png, write_png};
 
 pub(crate) use files::{MAX_SIDE, limits, read_file};
 #[cfg(feature = "path-tracer")]
-pub(crate) use recognise::{Format, recognise};
+pub(crate) use format::{Format, recognise};
 
 use std::path::Path;
 

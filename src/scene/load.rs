@@ -4,7 +4,9 @@ pub(crate) mod decode;
 pub(crate) mod files;
 pub(crate) mod folder;
 mod ktx2;
+#[cfg(feature = "gltf")]
 pub(crate) mod normals;
+pub(crate) mod recognise;
 pub(crate) mod report;
 
 use std::collections::BTreeMap;
@@ -29,12 +31,14 @@ pub struct Loaded {
 /// `obj` (Wavefront OBJ + MTL, with the feature `obj`), in upper or lower case.
 ///
 /// Files that it refers to (buffers, images, material libraries) are only read where they lie in the folder of the
-/// scene file or below; network addresses are never followed.
+/// scene file or below; network addresses are never followed. A path of another machine (absolute, with backslashes, out of
+/// the folder, in the wrong case) stands for the file in that folder whose path ends as it does, with a [`Warning`].
 ///
 /// # Errors
 ///
-/// An unknown extension, a file that cannot be read, or one that breaks its format so that it cannot be drawn: the
-/// error names the file, the element and the reason. What can be left out is left out, with a [`Warning`].
+/// An unknown extension, a file that cannot be read, or one of which nothing can be drawn because positions, indices or
+/// bytes are missing: the error names the file, the element and the reason. Everything else that is broken or unknown is left
+/// out or replaced on its own, with a [`Warning`].
 pub fn load(path: impl AsRef<Path>) -> Result<Loaded, SceneError> {
     read(Files::Disk, path.as_ref())
 }

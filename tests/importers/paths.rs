@@ -35,7 +35,6 @@ fn files_in_the_folder_and_below_are_read() {
 fn nothing_else_is_read() {
     let (folder, gltf) = nested();
     let absolute = folder.0.join("secret.bin").display().to_string();
-    let inside = folder.0.join("scene/inside.bin").display().to_string();
     let file_url = format!("file://{absolute}");
     for uri in [
         "../secret.bin",
@@ -43,9 +42,7 @@ fn nothing_else_is_read() {
         "..%2fsecret.bin",
         "below/../../secret.bin",
         "./../scene/../secret.bin",
-        "../scene/inside.bin",
         &absolute,
-        &inside,
         &file_url,
         "http://localhost/secret.bin",
         "HTTPS:secret.bin",
@@ -53,8 +50,39 @@ fn nothing_else_is_read() {
         "\\\\server\\secret.bin",
         "//server/secret.bin",
         "inside.bin%00",
+        "http://localhost/inside.bin",
+        "https:inside.bin",
     ] {
         assert_error(load_with(&folder, &gltf, uri), "test.gltf", "buffers[0]", "not within the folder");
+    }
+}
+
+/// Paths of other machines: the end of them that is a file in the folder stands for them.
+#[test]
+fn paths_of_other_machines_are_looked_for_in_the_folder() {
+    let (folder, gltf) = nested();
+    folder.write("scene/below/Deep Er/only.bin", &gltf.bytes);
+    folder.write("scene/a/twice.bin", &gltf.bytes);
+    folder.write("scene/b/twice.bin", &gltf.bytes);
+    let inside = folder.0.join("scene/inside.bin").display().to_string();
+    for (uri, found) in [
+        ("../scene/inside.bin", "inside.bin"),
+        (&*inside, "inside.bin"),
+        ("c:/users/me/below/inside.bin", "below/inside.bin"),
+        ("C:\\inside.bin", "inside.bin"),
+        ("\\\\server\\share\\inside.bin", "inside.bin"),
+        ("file:///C:/inside.bin", "inside.bin"),
+        ("file:///home/me/only.bin", "below/Deep Er/only.bin"),
+        ("..%5Cbelow%5Cinside.bin", "below/inside.bin"),
+        ("textures/inside.bin", "inside.bin"),
+        ("Inside.BIN", "inside.bin"),
+        ("\"inside.bin\"", "inside.bin"),
+        ("DEEP ER/ONLY.bin", "below/Deep Er/only.bin"),
+        ("x/b/twice.bin", "b/twice.bin"),
+        ("twice.bin", "a/twice.bin"),
+    ] {
+        let loaded = load_with(&folder, &gltf, uri).unwrap_or_else(|error| panic!("{error}"));
+        assert_warnings(&loaded, &[("buffers[0]", &format!("; \"{found}\" is read instead"))]);
     }
 }
 
@@ -68,6 +96,9 @@ fn links_that_lead_out_are_not_followed() {
     assert_error(load_with(&folder, &gltf, "link.bin"), "test.gltf", "buffers[0]", "not within the folder");
     assert_error(load_with(&folder, &gltf, "up/secret.bin"), "test.gltf", "buffers[0]", "not within the folder");
     assert!(load_with(&folder, &gltf, "fine.bin").is_ok());
+    assert_error(load_with(&folder, &gltf, "x/link.bin"), "test.gltf", "buffers[0]", "cannot be read");
+    let linked = load_with(&folder, &gltf, "x/fine.bin").unwrap();
+    assert_warnings(&linked, &[("buffers[0]", "\"fine.bin\" is read instead")]);
 }
 
 #[test]

@@ -11,7 +11,7 @@ use image::{DynamicImage, ImageReader};
 
 use crate::image_io::{Format, limits, read_file, recognise};
 use crate::scene::description::{Environment, SceneError, Warning};
-use primaries::linear_from_srgb;
+pub(crate) use primaries::linear_from_srgb;
 
 /// Radiance of a texel that is infinite: the largest 16-bit float, which is what most files of infinite suns were meant to hold.
 const BRIGHTEST: f32 = 65504.0;

@@ -55,7 +55,7 @@ pub(super) fn luminance_weights(primaries: [[f64; 2]; 4]) -> [f32; 3] {
 }
 
 /// The transfer function of sRGB, from 0…1 to 0…1.
-pub(super) fn linear_from_srgb(encoded: f32) -> f32 {
+pub(crate) fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 

@@ -9,7 +9,7 @@ use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf::json::Root;
 
-use crate::scene::load::folder::{Folder, percent_decode};
+use crate::scene::load::folder::{Folder, Located, percent_decode};
 use crate::scene::load::report::{Fault, Report};
 
 /// Padding at the end is often left out.
@@ -33,7 +33,10 @@ pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder<'_>, 
             (Some(uri), _) => match data_uri(uri) {
                 Some(bytes) => bytes.map_err(fault)?.into(),
                 None => {
-                    let path = folder.locate_uri(uri).map_err(fault)?;
+                    let Located { path, note } = folder.locate_uri(uri).map_err(fault)?;
+                    if let Some(note) = note {
+                        report.warn(&element, note);
+                    }
                     match files.get(&path) {
                         Some(bytes) => bytes.clone(),
                         None => {

@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::mend::mend;
 use super::text::tidy;
+use crate::scene::load::recognise::foreign;
 use crate::scene::load::report::{Fault, Report};
 
 /// Extensions that are honoured.
@@ -97,7 +98,10 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
         Ok(value) => value,
         Err(error) => {
             let text = decoded.map_or_else(|| String::from_utf8_lossy(json), Cow::Owned);
-            let value = serde_json::from_str(&tidy(&text)).map_err(|_| Fault::new("JSON", error.to_string()))?;
+            let value = serde_json::from_str(&tidy(&text)).map_err(|_| match foreign(json) {
+                Some(kind) if !json.trim_ascii_start().starts_with(b"{") => Fault::new("file", kind),
+                _ => Fault::new("JSON", error.to_string()),
+            })?;
             report.warn("JSON", format!("{error}; it is read as if it were JSON"));
             value
         }

@@ -13,6 +13,7 @@ use super::source::Source;
 use crate::image_io::recognise;
 use crate::scene::description::{Image, Texture, Wrap};
 use crate::scene::load::decode::decode;
+use crate::scene::load::folder::Located;
 use crate::scene::load::report::{Fault, Report};
 
 /// Most texels that the images of one file may have together (4 GiB).
@@ -80,8 +81,8 @@ impl<'a> Images<'a> {
         for (index, image) in unused {
             let Some(uri) = image.uri.as_deref().filter(|uri| data_uri(uri).is_none()) else { continue };
             let folder = &self.source.folder;
-            let checked = folder.locate_uri(uri).and_then(|path| {
-                recognise(&folder.start(&path)).map(|_| ()).map_err(|reason| format!("\"{uri}\" {reason}"))
+            let checked = folder.locate_uri(uri).and_then(|located| {
+                recognise(&folder.start(&located.path)).map(|_| ()).map_err(|reason| format!("\"{uri}\" {reason}"))
             });
             if let Err(reason) = checked {
                 report.warn(format!("images[{index}]"), format!("{reason}; it is not needed"));
@@ -114,7 +115,7 @@ impl<'a> Images<'a> {
         if let Some(&known) = self.known.get(&index) {
             return known;
         }
-        let decoded = self.decode(image, index);
+        let decoded = self.decode(image, index, report);
         let known = decoded.map_err(|reason| {
             let element = format!("images[{index}]");
             if !["bufferView", "uri"].iter().any(|member| report.is_removed(&format!("{element}.{member}"))) {
@@ -127,14 +128,17 @@ impl<'a> Images<'a> {
     }
 
     /// Decodes an image, unless the same file failed before: then there is `None`, and nothing more to say.
-    fn decode(&mut self, image: &ImageSource, index: usize) -> Result<Option<usize>, String> {
+    fn decode(&mut self, image: &ImageSource, index: usize, report: &mut Report) -> Result<Option<usize>, String> {
         let name = image.name.clone().or_else(|| image.uri.clone().filter(|uri| data_uri(uri).is_none()));
         let name = name.unwrap_or_else(|| format!("image {index}"));
         if let Some(uri) = &image.uri {
             if let Some(bytes) = data_uri(uri) {
                 return self.add(&name, &bytes?).map(Some);
             }
-            let path = self.source.folder.locate_uri(uri)?;
+            let Located { path, note } = self.source.folder.locate_uri(uri)?;
+            if let Some(note) = note {
+                report.warn(format!("images[{index}]"), note);
+            }
             if let Some(&known) = self.files.get(&path) {
                 return Ok(known);
             }

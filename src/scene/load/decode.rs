@@ -5,12 +5,13 @@ use std::io::Cursor;
 use image::ImageReader;
 
 use super::ktx2;
+use super::recognise::foreign;
 use crate::image_io::{Format, limits, recognise};
 use crate::scene::description::Image;
 
 /// Decodes an image file. The error is a reason.
 pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
-    let format = match recognise(bytes)? {
+    let format = match recognise(bytes).map_err(|reason| foreign(bytes).map_or(reason, str::to_owned))? {
         Format::Ktx2 => return ktx2::decode(name, bytes),
         Format::Image(format) => format,
     };

@@ -2,9 +2,15 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use crate::image_io::read_file;
+
+/// A scene may lie in a folder with all that a person has.
+const MAX_LISTED: usize = 20_000;
+/// How deep files are looked for.
+const MAX_DEPTH: usize = 8;
 
 /// All files that there are.
 #[derive(Clone, Copy)]
@@ -37,6 +43,17 @@ impl<'a> Files<'a> {
             .flatten()
             .find(|path| files.contains_key(path))
             .ok_or_else(|| "is not among the files that were given".into())
+    }
+
+    /// The files in a folder and below, sorted within each folder, the nearest first: at most [`MAX_LISTED`] entries, down to
+    /// [`MAX_DEPTH`] folders. Links are followed to files in the folder, and nowhere else.
+    pub fn list(self, root: &Path) -> Vec<PathBuf> {
+        match self {
+            Self::Disk => list(root),
+            Self::Memory(files) => {
+                files.keys().filter(|path| path.starts_with(root)).take(MAX_LISTED).cloned().collect()
+            }
+        }
     }
 
     /// The bytes of a file. The error is a reason.
@@ -74,6 +91,37 @@ impl<'a> Files<'a> {
 
 fn canonical(path: &Path) -> Result<PathBuf, String> {
     path.canonicalize().map_err(|error| format!("cannot be read: {error}"))
+}
+
+fn list(root: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut left = MAX_LISTED;
+    let mut folders = vec![root.to_path_buf()];
+    for _ in 0..MAX_DEPTH {
+        let mut below = Vec::new();
+        for folder in folders {
+            let Ok(entries) = fs::read_dir(&folder) else { continue };
+            let mut entries: Vec<_> = entries.take(left).filter_map(Result::ok).collect();
+            left -= entries.len();
+            entries.sort_by_key(fs::DirEntry::file_name);
+            for entry in entries {
+                let path = entry.path();
+                match entry.file_type() {
+                    Ok(kind) if kind.is_dir() => below.push(path),
+                    Ok(kind) if kind.is_file() => found.push(path),
+                    Ok(kind) if kind.is_symlink() => {
+                        let target = path.canonicalize();
+                        if target.is_ok_and(|target| target.starts_with(root) && target.is_file()) {
+                            found.push(path);
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        folders = below;
+    }
+    found
 }
 
 /// A path without `.` and `..`.

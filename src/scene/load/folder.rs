@@ -2,6 +2,8 @@
 //! may only name files in its own folder.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
+use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
 
 use super::files::Files;
@@ -10,13 +12,23 @@ use super::files::Files;
 pub(crate) struct Folder<'a> {
     files: Files<'a>,
     root: PathBuf,
+    /// All files in the folder by their names in lower case, listed when one is not where it should be.
+    listing: OnceCell<HashMap<String, Vec<PathBuf>>>,
+}
+
+/// A file in the folder.
+#[derive(Clone, Debug)]
+pub(crate) struct Located {
+    pub path: PathBuf,
+    /// What was found instead, where the file is not exactly the one that was named: for a warning.
+    pub note: Option<String>,
 }
 
 impl<'a> Folder<'a> {
     /// The folder that holds the file at `path`. The error is a reason.
     pub fn of(files: Files<'a>, path: &Path) -> Result<Self, String> {
         let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Ok(Self { files, root: files.folder(parent)? })
+        Ok(Self { files, root: files.folder(parent)?, listing: OnceCell::new() })
     }
 
     /// The bytes of a file that was located. The error is a reason.
@@ -30,16 +42,36 @@ impl<'a> Folder<'a> {
         self.files.start(path)
     }
 
-    /// The file that a relative, percent-encoded URI stands for. The error is a reason.
+    /// The file that a relative, percent-encoded URI stands for, as [`Folder::locate`] finds it. The error is a reason.
     #[cfg(feature = "gltf")]
-    pub fn locate_uri(&self, uri: &str) -> Result<PathBuf, String> {
+    pub fn locate_uri(&self, uri: &str) -> Result<Located, String> {
         // Many writers do not encode their names at all.
-        let decoded = percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok());
-        self.locate(decoded.as_deref().unwrap_or(uri)).or_else(|reason| self.locate(uri).map_err(|_| reason))
+        match percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok()) {
+            Some(decoded) if decoded != uri => {
+                self.locate(&decoded).or_else(|reason| self.locate(uri).map_err(|_| reason))
+            }
+            _ => self.locate(uri),
+        }
     }
 
     /// The file that a relative path stands for. The error is a reason.
-    pub fn locate(&self, name: &str) -> Result<PathBuf, String> {
+    ///
+    /// Where there is none, the name may be a path of another machine: with backslashes, in quotes, absolute, out of the
+    /// folder, or in the wrong case. The longest end of it that is a file in the folder stands for it, beside the scene
+    /// file first, then below. Nothing outside the folder is looked at, and network addresses are not searched for.
+    pub fn locate(&self, name: &str) -> Result<Located, String> {
+        let reason = match self.exact(name) {
+            Ok(path) => return Ok(Located { path, note: None }),
+            Err(reason) => reason,
+        };
+        let path = self.find(&parts(name)).ok_or_else(|| reason.clone())?;
+        let found = path.strip_prefix(&self.root).unwrap_or(&path).display().to_string().replace('\\', "/");
+        // "… is not read" is no longer so.
+        let reason = reason.strip_suffix(", and is not read").unwrap_or(&reason);
+        Ok(Located { note: Some(format!("{reason}; \"{found}\" is read instead")), path })
+    }
+
+    fn exact(&self, name: &str) -> Result<PathBuf, String> {
         let outside = || format!("\"{name}\" is not within the folder of the scene file, and is not read");
         if has_scheme(name) || name.starts_with(['/', '\\']) || name.contains('\0') {
             return Err(outside());
@@ -57,6 +89,56 @@ impl<'a> Folder<'a> {
         // Links were followed by now, and they may lead anywhere.
         if path.starts_with(&self.root) { Ok(path) } else { Err(outside()) }
     }
+
+    /// The file whose path ends as `parts` does, in as many of them as possible: beside the scene file or below, in the same
+    /// case or another.
+    fn find(&self, parts: &[String]) -> Option<PathBuf> {
+        let listing = self.listing.get_or_init(|| by_name(self.files.list(&self.root)));
+        let candidates = listing.get(&parts.last()?.to_lowercase())?;
+        let rating = |path: &Path, same: fn(&str, &str) -> bool| {
+            let within: Vec<_> = path.strip_prefix(&self.root).unwrap_or(path).components().collect();
+            let own = within.iter().rev().map(|component| component.as_os_str().to_str().unwrap_or(""));
+            let alike = std::iter::zip(own, parts.iter().rev()).take_while(|(own, part)| same(own, part)).count();
+            // Of those that end alike, the one that ends there, then the one that lies least deep.
+            (alike, alike == within.len(), usize::MAX - within.len())
+        };
+        let best = |same: fn(&str, &str) -> bool| {
+            // The candidates are sorted; of equals, the first is taken.
+            let rated = candidates.iter().rev().map(|path| (rating(path, same), path));
+            rated.filter(|((alike, ..), _)| *alike > 0).max_by_key(|(rating, _)| *rating)
+        };
+        let found = best(|a, b| a == b).or_else(|| best(|a, b| a.to_lowercase() == b.to_lowercase()))?;
+        Some(found.1.clone())
+    }
+}
+
+fn by_name(files: Vec<PathBuf>) -> HashMap<String, Vec<PathBuf>> {
+    let mut names: HashMap<String, Vec<PathBuf>> = HashMap::new();
+    for path in files {
+        let name = path.file_name().and_then(|name| name.to_str()).map(str::to_lowercase);
+        names.entry(name.unwrap_or_default()).or_default().push(path);
+    }
+    names
+}
+
+/// The folders and the name of a path of any machine. None for a network address.
+fn parts(name: &str) -> Vec<String> {
+    let name = name.trim().trim_matches(['"', '\'']);
+    let (local, decoded) = match name.split_once(':') {
+        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => {
+            (rest, percent_decode(rest).and_then(|bytes| String::from_utf8(bytes).ok()))
+        }
+        // A drive of Windows.
+        Some((drive, rest)) if drive.len() == 1 => (rest, None),
+        Some(_) if has_scheme(name) => return Vec::new(),
+        _ => (name, None),
+    };
+    let local = decoded.as_deref().unwrap_or(local);
+    if local.contains('\0') {
+        return Vec::new();
+    }
+    let parts = local.split(['/', '\\']).map(str::trim).filter(|part| !matches!(*part, "" | "." | ".."));
+    parts.map(str::to_owned).collect()
 }
 
 /// Whether a URI starts with a scheme (`https:`, `file:`) or a Windows drive.
@@ -68,7 +150,6 @@ fn has_scheme(uri: &str) -> bool {
 }
 
 /// Replaces `%20` and the like. `None` for an incomplete escape.
-#[cfg(feature = "gltf")]
 pub(crate) fn percent_decode(uri: &str) -> Option<Vec<u8>> {
     let mut decoded = Vec::with_capacity(uri.len());
     let mut bytes = uri.bytes();

@@ -1,21 +1,44 @@
 //! Wavefront OBJ with MTL materials.
 //!
-//! The `tobj` crate assembles the triangles. It is handed a cleaned text ([`text`]), because it misreads or panics on
-//! some of what files in the wild contain, and because its errors do not tell lines.
+//! A file is refused only if none of its faces can be drawn. Everything else that is broken costs itself, and one warning for
+//! each kind of defect ([`tally`]) names the first line and counts the others:
+//!
+//! - a position that cannot be read, and an index of a position that does not exist, the faces that use them;
+//! - a normal that cannot be read, has no direction or does not exist, itself: the corner gets what it would have without
+//!   normals ([`smoothing`]);
+//! - texture coordinates that cannot be read or do not exist, themselves: 0 stands for them.
+//!
+//! Faces may use vectors that stand further down. Keywords may be in any case, numbers have a decimal comma, lines end with CR.
 
+mod assemble;
+mod color;
+mod encoding;
+mod faces;
+mod geometry;
+mod library;
+mod map;
 mod material;
+mod part;
+mod polygon;
+mod ring;
+mod smoothing;
+mod source;
+mod tally;
 mod text;
+mod textures;
 
 use std::collections::HashMap;
 use std::path::Path;
 
-use tobj::LoadOptions;
-
-use crate::scene::description::{Material, Mesh, Node, Scene, SceneError};
+use crate::scene::description::{Alpha, Material, Mesh, Node, Scene, SceneError};
 use crate::scene::load::Loaded;
 use crate::scene::load::files::Files;
 use crate::scene::load::folder::Folder;
+use crate::scene::load::recognise::{foreign, is_binary};
 use crate::scene::load::report::{Fault, Report};
+use geometry::Geometry;
+use library::Library;
+use textures::Textures;
 
 /// Reads an OBJ file and the material libraries that it names.
 pub(crate) fn load(files: Files<'_>, path: &Path) -> Result<Loaded, SceneError> {
@@ -29,78 +52,89 @@ pub(crate) fn load(files: Files<'_>, path: &Path) -> Result<Loaded, SceneError> 
 fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fault> {
     let unreadable = |reason: String| Fault::new("file", reason);
     let folder = Folder::of(files, path).map_err(unreadable)?;
-    let bytes = files.read(path).map_err(unreadable)?;
-    if bytes.iter().all(u8::is_ascii_whitespace) {
-        return Err(Fault::new("file", "is empty"));
+    let mut geometry = read_geometry(files, path, report)?;
+    if let Some(fault) = geometry.tally.fault().filter(|_| geometry.is_lost()) {
+        return Err(fault);
     }
-    let geometry = text::clean_geometry(&String::from_utf8_lossy(&bytes), report)?;
-    drop(bytes);
+    std::mem::take(&mut geometry.tally).warn(report);
 
-    let mut scene = Scene::default();
-    let names = material::read_libraries(&geometry.libraries, &folder, report, &mut scene)?;
-    for (name, line) in &geometry.used_materials {
-        if !names.contains_key(name) {
-            report.warn(format!("line {line}"), format!("there is no material \"{name}\"; it is drawn in grey"));
+    let mut textures = Textures::new(&folder);
+    let library = Library::read(&geometry, path, &folder, &mut textures, report);
+    let found: Vec<_> = geometry.uses.iter().map(|used| library.find(used, report)).collect();
+    let mut scene = Scene { materials: library.materials, ..Scene::default() };
+
+    let Geometry { mut vectors, colors, faces, groups, .. } = geometry;
+    let colors = colors.linear(report);
+    let mut parts = faces.parts.parts;
+    smoothing::fill(&mut parts, &vectors.positions, &mut vectors.normals)?;
+    let mut defaults = HashMap::new();
+    for part in parts {
+        let name = groups.get(part.group).to_owned();
+        let material = part.material.and_then(|number| *found.get(number as usize)?);
+        let mut mesh = assemble::mesh(part, &vectors, &colors)?;
+        mesh.name = name;
+        mesh.material = material.unwrap_or_else(|| {
+            *defaults.entry(mesh.colors.is_empty()).or_insert_with_key(|&uncolored| {
+                scene.materials.push(material::default(!uncolored));
+                scene.materials.len() - 1
+            })
+        });
+        if let Some(material) = scene.materials.get(mesh.material) {
+            warn_unmet(material, &mesh, report);
+        }
+        if !mesh.triangles.is_empty() {
+            scene.meshes.push(mesh);
         }
     }
-
-    let options = LoadOptions { single_index: true, triangulate: true, ..LoadOptions::default() };
-    // tobj only has to know which name has which index.
-    let (models, _) = tobj::load_obj_buf(&mut geometry.text.as_bytes(), &options, |_| Ok((Vec::new(), names.clone())))
-        .map_err(|error| Fault::new("file", error.to_string()))?;
-    drop(geometry);
-
-    let mut meshes = Meshes::default();
-    for model in models {
-        meshes.add(model, &mut scene)?;
-    }
+    scene.images = textures.into_images();
     let meshes = (0..scene.meshes.len()).collect();
     scene.nodes.push(Node { meshes, ..Node::default() });
     Ok(scene)
 }
 
-/// Joins the pieces of one object that have the same material and the same kind of vertices: a file may switch
-/// between materials for every face.
-#[derive(Default)]
-struct Meshes {
-    places: HashMap<(String, Option<usize>, bool, bool), usize>,
-    default_material: Option<usize>,
+fn read_geometry(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Geometry, Fault> {
+    let refused = |reason: &str| Fault::new("file", reason);
+    let bytes = files.read(path).map_err(|reason| refused(&reason))?;
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        return Err(refused("is empty"));
+    }
+    if let Some(kind) = foreign(&bytes) {
+        return Err(refused(kind));
+    }
+    let (text, note) = encoding::decode(&bytes);
+    if is_binary(&text) {
+        return Err(refused("is no text, and so no OBJ file"));
+    }
+    if let Some(note) = note {
+        report.warn("file", note);
+    }
+    let mut geometry = Geometry::default();
+    text::each_statement(&text, |statement| geometry.statement(statement, report));
+    if geometry.known == 0 {
+        return Err(refused("is no OBJ file: no line of it is a statement of one"));
+    }
+    geometry.faces.finish(&geometry.vectors, &mut geometry.tally);
+    Ok(geometry)
 }
 
-impl Meshes {
-    fn add(&mut self, model: tobj::Model, scene: &mut Scene) -> Result<(), Fault> {
-        let tobj::Model { mesh: piece, name } = model;
-        if piece.indices.is_empty() {
-            return Ok(());
-        }
-        let key = (name, piece.material_id, !piece.normals.is_empty(), !piece.texcoords.is_empty());
-        let place = match self.places.get(&key) {
-            Some(&place) => place,
-            None => {
-                let material = piece.material_id.unwrap_or_else(|| self.default_material(&mut scene.materials));
-                scene.meshes.push(Mesh { name: key.0.clone(), material, ..Mesh::default() });
-                let place = scene.meshes.len() - 1;
-                self.places.insert(key, place);
-                place
-            }
-        };
-        let Some(mesh) = scene.meshes.get_mut(place) else { return Ok(()) };
-        let too_many = |_| Fault::new(format!("object \"{}\"", mesh.name), "has more than 2³² vertices");
-        let first = u32::try_from(mesh.positions.len()).map_err(too_many)?;
-        u32::try_from(mesh.positions.len() + piece.positions.len() / 3).map_err(too_many)?;
-        mesh.positions.extend_from_slice(piece.positions.as_chunks::<3>().0);
-        mesh.normals.extend_from_slice(piece.normals.as_chunks::<3>().0);
-        // In OBJ, v grows upwards.
-        mesh.uvs[0].extend(piece.texcoords.as_chunks::<2>().0.iter().map(|&[u, v]| [u, 1.0 - v]));
-        mesh.triangles.extend(piece.indices.as_chunks::<3>().0.iter().map(|corners| corners.map(|i| first + i)));
-        Ok(())
+impl Geometry {
+    /// Whether there are faces, and none of them can be drawn.
+    fn is_lost(&self) -> bool {
+        self.faces.count > 0 && self.faces.parts.parts.iter().all(|part| part.triangles.is_empty())
     }
+}
 
-    /// The material of faces that have none.
-    fn default_material(&mut self, materials: &mut Vec<Material>) -> usize {
-        *self.default_material.get_or_insert_with(|| {
-            materials.push(material::grey());
-            materials.len() - 1
-        })
+/// Says what a material needs that the mesh has not got, and what the mesh has that the material does not use.
+fn warn_unmet(material: &Material, mesh: &Mesh, report: &mut Report) {
+    let element = format!("object \"{}\"", text::shortened(&mesh.name));
+    if mesh.uvs[0].is_empty() && material.textures().next().is_some() {
+        let reason = format!(
+            "faces without texture coordinates have the material \"{}\"; its textures are one texel there",
+            text::shortened(&material.name)
+        );
+        report.warn_once(&element, reason);
+    }
+    if material.alpha == Alpha::Opaque && mesh.colors.iter().any(|color| color[3] < 1.0) {
+        report.warn_once(element, "the opacity of vertex colours is not read; it is drawn as 1");
     }
 }

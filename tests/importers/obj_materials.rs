@@ -1,0 +1,152 @@
+//! MTL files: materials.
+
+use asvgf::scene::Alpha;
+
+use crate::common::*;
+use crate::obj::{SQUARE, material, read};
+
+#[test]
+fn diffuse_glossy_metallic_and_emitting_materials() {
+    let diffuse = &material("Kd 0.1 0.2 0.3\nKe 17 12 4\nKs 0 0 0\nNs 10\n").scene.materials[0];
+    assert_eq!((diffuse.base_color, diffuse.emissive), ([0.1, 0.2, 0.3, 1.0], [17.0, 12.0, 4.0]));
+    assert_eq!((diffuse.metallic, diffuse.specular), (0.0, [0.0; 3]));
+
+    let glossy = &material("Kd 0.5 0.5 0.5\nKs 0.2 0.4 0.1\nNs 30\nillum 2\n").scene.materials[0];
+    assert_eq!((glossy.metallic, glossy.specular), (0.0, [0.2, 0.4, 0.1]));
+    assert_close(&[glossy.roughness], &[(2.0_f32 / 32.0).powf(0.25)], 1e-6);
+
+    let metal = &material("Kd 0 0 0\nKs 0.725 0.71 0.68\nNs 200\n").scene.materials[0];
+    assert_eq!((metal.metallic, metal.base_color), (1.0, [0.725, 0.71, 0.68, 1.0]));
+
+    let matte = &material("Kd 0.5\nKs 0.9 0.9 0.9\nillum 1\n").scene.materials[0];
+    assert_eq!(matte.specular, [0.0; 3]);
+}
+
+#[test]
+fn opacity() {
+    let clear = material("d 0.2\n");
+    assert_warnings(&clear, &[("test.mtl material \"m\"", "opacity 0.2 is below 0.5")]);
+    assert_eq!((clear.scene.materials[0].alpha, clear.scene.materials[0].base_color[3]), (Alpha::Mask(0.5), 0.2));
+    let half = material("Tr 0.25\n");
+    assert_warnings(&half, &[("m", "0.75 is drawn as 1")]);
+    assert_eq!(half.scene.materials[0].alpha, Alpha::Opaque);
+    assert_warnings(&material("d -halo 1\n"), &[]);
+    // `d` wins wherever they stand.
+    for both in ["d 1\nTr 1\n", "Tr 1\nd 1\n", "TR 0\nD 1.0\n"] {
+        assert_warnings(&material(both), &[]);
+        assert_eq!(material(both).scene.materials[0].alpha, Alpha::Opaque);
+    }
+    assert_warnings(&material("Tr 0\nd 0.1\n"), &[("m", "opacity 0.1 is below 0.5")]);
+}
+
+#[test]
+fn statements_that_cannot_be_read_are_left_out() {
+    let loaded = material(
+        "Kd spectral file.rfl\nKs 1 2\nNs\nKe nan 0 0\nmap_Kd\nmap_Ke -what 1 a.png\nbump b.png\nmap_Ks c.png\n",
+    );
+    assert_warnings(
+        &loaded,
+        &[
+            ("test.mtl line 2", "Kd: \"spectral\" is not a number"),
+            ("test.mtl line 3", "Ks: 2 numbers"),
+            ("test.mtl line 4", "Ns: there is no number"),
+            ("test.mtl line 5", "Ke: NaN"),
+            ("test.mtl line 6", "map_Kd: there is no file name"),
+            ("test.mtl line 7", "the option -what"),
+            ("test.mtl line 8", "bump maps"),
+            ("test.mtl material \"m\"", "\"c.png\" cannot be read"),
+        ],
+    );
+}
+
+#[test]
+fn roughness_and_metalness() {
+    let metal = &material("Kd .9 .6 .3\nPr 0.2\nPm 1.0\nKs 1 1 1\n").scene.materials[0];
+    assert_eq!((metal.base_color, metal.roughness, metal.metallic), ([0.9, 0.6, 0.3, 1.0], 0.2, 1.0));
+    assert_close(&metal.specular, &[0.04; 3], 1e-6);
+    // A dielectric reflects as its index of refraction says, also if Kd is black.
+    let dielectric = &material("Kd 0 0 0\nKs 0.5 0.5 0.5\nPr 0.5\nNi 2\n").scene.materials[0];
+    assert_eq!((dielectric.metallic, dielectric.roughness), (0.0, 0.5));
+    assert_close(&dielectric.specular, &[1.0 / 9.0; 3], 1e-6);
+    let shiny = &material("Pm 0.5\nNs 30\n").scene.materials[0];
+    assert_close(&[shiny.roughness, shiny.metallic], &[(2.0_f32 / 32.0).powf(0.25), 0.5], 1e-6);
+    assert_warnings(&material("Pr 2\n"), &[("material \"m\"", "2 is outside 0…1; 1 is used")]);
+}
+
+#[test]
+fn illumination_models() {
+    let made = |model: &str| material(&format!("Kd 0 0 0\nKs 1 1 1\nNi 1.5\nillum {model}\n"));
+    for matte in ["0", "1"] {
+        assert_eq!(made(matte).scene.materials[0].specular, [0.0; 3]);
+    }
+    for glossy in ["2", "3", "5", "8"] {
+        assert_warnings(&made(glossy), &[]);
+        assert_eq!(made(glossy).scene.materials[0].metallic, 1.0);
+    }
+    for glass in ["4", "6", "7", "9"] {
+        let loaded = made(glass);
+        assert_warnings(&loaded, &[("material \"m\"", &format!("illum {glass} (glass) is not read"))]);
+        let material = &loaded.scene.materials[0];
+        assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Opaque), "no mirror");
+        assert_close(&material.specular, &[0.04; 3], 1e-6);
+    }
+    assert_warnings(&made("12"), &[("material \"m\"", "illum 12 is not known; 2 is used")]);
+    // One warning for what is one defect.
+    assert_warnings(&material("illum 9\nd 0.75\nTf 1 0 0\n"), &[("m", "0.75 is drawn as 1")]);
+    assert_warnings(&material("illum 2\nTf 1 1 1\n"), &[]);
+    assert_warnings(&material("illum 2\nTf 1 0.5 1\n"), &[("m", "Tf (coloured transmission) is not read")]);
+}
+
+#[test]
+fn keywords_that_are_not_read_are_named_once() {
+    let text = "Ka 1 1 1\nNi 1\nsharpness 60\nPs 0.0\nPc 0\naniso 0.000\nPcr 0.03\nanisor 0\nmap_Ka a.png\n\
+                bump a\nnorm b\nmap_Bump c\ndisp d\ndecal e\nrefl f\nmap_Ns g\nmap_Tr h\nPs 1\nPc 0.5\naniso 1\nsurprise\n";
+    let loaded = material(&format!("{text}newmtl n\n{text}"));
+    let named = ["bump", "norm", "map_Bump", "disp", "decal", "refl", "map_Ns", "map_Tr", "Ps", "Pc", "aniso"];
+    let mut expected: Vec<_> = named.iter().map(|keyword| ("test.mtl line", format!("{keyword}: "))).collect();
+    expected.push(("test.mtl line 22", "\"surprise\" is not known".into()));
+    let expected: Vec<_> = expected.iter().map(|(element, reason)| (*element, reason.as_str())).collect();
+    assert_warnings(&loaded, &expected);
+}
+
+#[test]
+fn colours_in_other_spaces() {
+    // The white of Rec. 709, and its green primary at Y = 0.7152.
+    let white = material("Kd xyz 0.950456 1 1.089058\n");
+    assert_warnings(&white, &[]);
+    assert_close(&white.scene.materials[0].base_color, &[1.0; 4], 1e-3);
+    let green = material("Kd xyz 0.3575761 0.7151522 0.119192\n");
+    assert_close(&green.scene.materials[0].base_color, &[0.0, 1.0, 0.0, 1.0], 1e-3);
+    assert_warnings(&material("Kd 255 128 0\n"), &[("m", "[255.0, 128.0, 0.0] is outside 0…1; [1.0, 1.0, 0.0]")]);
+}
+
+#[test]
+fn names_of_materials() {
+    let used = |name: &str, library: &str| {
+        read(format!("mtllib test.mtl\n{SQUARE}usemtl {name}\nf 1 2 3\n"), library).unwrap()
+    };
+    let drawn = |loaded: &asvgf::scene::Loaded| loaded.scene.materials[loaded.scene.meshes[0].material].name.clone();
+    // What may be a comment may be a name.
+    let library = "newmtl Material #1\nnewmtl Material #2\nnewmtl plain # note\n";
+    assert_eq!(used("Material #2", library).scene.meshes[0].material, 1);
+    assert_eq!(drawn(&used("plain", library)), "plain");
+    assert_eq!(drawn(&used("plain # other note", library)), "plain");
+    let other_case = used("PLAIN", library);
+    assert_warnings(&other_case, &[("line 6", "there is no material \"PLAIN\"; \"plain\" is used")]);
+    let twice = used("a", "newmtl a\nKd 1 0 0\nnewmtl a\nKd 0 1 0\n");
+    assert_warnings(&twice, &[("material \"a\"", "is there twice; the last one counts")]);
+    assert_eq!(twice.scene.materials[twice.scene.meshes[0].material].base_color, [0.0, 1.0, 0.0, 1.0]);
+    let early = used("a", "Kd 1 0 0\nKs 1 1 1\nnewmtl a\n");
+    assert_warnings(&early, &[("test.mtl line 1", "before the first newmtl")]);
+
+    let unnamed = read(format!("{SQUARE}usemtl\nf 1 2 3\nusemtl \nf 1 3 4\no\ng\n"), "").unwrap();
+    assert_warnings(
+        &unnamed,
+        &[("line 5", "there is no name; the faces after it are drawn in the default material (2")],
+    );
+    assert_eq!(drawn(&unnamed), "default");
+    // A file that names no library has the one beside it.
+    let unsaid = read(format!("{SQUARE}usemtl a\nf 1 2 3\n"), "newmtl a\nKd 1 0 0\n").unwrap();
+    assert_warnings(&unsaid, &[("file", "names no material library; \"test.mtl\" beside it is read")]);
+    assert_eq!(drawn(&unsaid), "a");
+}
