@@ -2,8 +2,9 @@
 
 use super::Pose;
 use super::bvh::{self, Quantization};
+use super::centre::relative;
 use super::folded::{self, Texel};
-use glam::{Mat4, Vec3, Vec4};
+use glam::{DVec3, Mat4, Vec3, Vec4};
 
 /// Texels of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
 pub(super) const NODE_TEXELS: usize = 2;
@@ -14,6 +15,8 @@ const RECORD_TEXELS: usize = 9;
 pub(super) struct Instance {
     /// The node that places it; `None` for the static geometry, which is in world space already.
     pub node: Option<usize>,
+    /// Where in the node's space the tree's coordinates count from.
+    pub centre: DVec3,
     pub root: u32,
     pub first_row: u32,
     pub row_count: u32,
@@ -25,9 +28,9 @@ pub(super) struct Instance {
 }
 
 impl Instance {
-    /// Where it stands in a pose.
-    pub fn placement(&self, pose: &Pose) -> Mat4 {
-        self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
+    /// Where it stands in a pose, relative to the scene's centre.
+    pub fn placement(&self, pose: &Pose, centre: DVec3) -> Mat4 {
+        self.node.map_or(Mat4::IDENTITY, |n| relative(&pose.world[n], self.centre, centre))
     }
 }
 
@@ -49,15 +52,15 @@ pub(super) struct Placed {
     pub grid: Quantization,
 }
 
-/// The top level and the instances' records in a pose.
-pub(super) fn place(instances: &[Instance], pose: &Pose, first_node: u32) -> Placed {
-    let boxes: Vec<_> = instances.iter().map(|i| transform_box(i.placement(pose), i.bounds)).collect();
+/// The top level and the instances' records in a pose, relative to the scene's centre.
+pub(super) fn place(instances: &[Instance], pose: &Pose, centre: DVec3, first_node: u32) -> Placed {
+    let boxes: Vec<_> = instances.iter().map(|i| transform_box(i.placement(pose, centre), i.bounds)).collect();
     let top = bvh::over_instances(&boxes, first_node);
     let mut texels = folded::texels(&top.nodes).to_vec();
     // As many nodes as any tree over these instances can have, so that the records stay where they are.
     texels.resize(top_level_nodes(instances.len()) * NODE_TEXELS, Texel::default());
     for instance in instances {
-        let now = instance.placement(pose);
+        let now = instance.placement(pose, centre);
         let mirrored = u32::from(now.determinant() < 0.0);
         texels.extend(rows(now));
         texels.extend(rows(inverse(now)));
@@ -69,8 +72,8 @@ pub(super) fn place(instances: &[Instance], pose: &Pose, first_node: u32) -> Pla
 }
 
 /// The placements alone, as a later frame reads where instances were.
-pub(super) fn rows_of(instances: &[Instance], pose: &Pose) -> Vec<Texel> {
-    instances.iter().flat_map(|instance| rows(instance.placement(pose))).collect()
+pub(super) fn rows_of(instances: &[Instance], pose: &Pose, centre: DVec3) -> Vec<Texel> {
+    instances.iter().flat_map(|instance| rows(instance.placement(pose, centre))).collect()
 }
 
 fn padded(v: [f32; 3]) -> Texel {

@@ -141,12 +141,12 @@ fn plane(half: f32, [x, y, z]: [f32; 3]) -> Mesh {
 }
 
 /// From a place towards −Z.
-fn looking(eye: [f32; 3]) -> Camera {
+fn looking(eye: [f64; 3]) -> Camera {
     Camera { eye, target: [eye[0], eye[1], eye[2] - eye[2].abs().max(1.0)], ..Default::default() }
 }
 
 fn at_scale(furnace: &mut Furnace, scale: f32) -> f64 {
-    let eye = [0.3 * scale, 0.2 * scale, 3.0 * scale];
+    let eye = [0.3, 0.2, 3.0].map(|x| x * f64::from(scale));
     let camera = |_| Camera { eye, target: [0.0; 3], ..Default::default() };
     let scenes = [grey(vec![ball(scale, [0.0; 3])]), grey(vec![plane(scale, [0.0; 3])])];
     scenes.into_iter().map(|scene| furnace.farthest_seen(scene, 3, camera)).fold(0.0, f64::max)
@@ -173,7 +173,7 @@ fn scales_break() -> String {
 
 fn away(furnace: &mut Furnace, distance: f32) -> f64 {
     let place = [distance, 0.0, 0.0];
-    let eye = [distance, 0.0, 12.0];
+    let eye = [distance.into(), 0.0, 12.0];
     furnace.farthest_seen(grey(vec![plane(5.0, place)]), 3, |_| looking(eye))
 }
 
@@ -214,7 +214,7 @@ fn grazing() -> Worst {
         let floor = quad([-50.0, 0.0, 50.0], [100.0, 0.0, 0.0], [0.0, 0.0, -100.0], 0);
         // The middle of the image meets the floor at that angle.
         let camera = |_| Camera {
-            eye: [0.0, height, 10.0],
+            eye: [0.0, height.into(), 10.0],
             target: [0.0; 3],
             fov_y: (2.0 * degrees).to_radians(),
             ..Default::default()
@@ -346,12 +346,12 @@ fn enclosed() -> Worst {
         for (name, mesh) in [("box", closed_box(scale)), ("ball", ball(scale, [0.0; 3]))] {
             let eyes = [("the middle", [0.0, 0.0, 0.0]), ("a wall", [0.9, 0.1, 0.2]), ("a corner", [0.5, 0.5, 0.5])];
             for (place, eye) in eyes {
-                let eye = eye.map(|x: f32| x * scale);
+                let eye = eye.map(|x: f64| x * f64::from(scale));
                 let camera = |frame| {
                     // A vertex of the box, an edge, and faces.
                     let target =
                         [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.1], [0.3, -0.7, 0.2]][frame as usize % 4];
-                    Camera { eye, target: target.map(|x: f32| x * scale), fov_y: 2.0, ..Default::default() }
+                    Camera { eye, target: target.map(|x: f64| x * f64::from(scale)), fov_y: 2.0, ..Default::default() }
                 };
                 let scene = grey(vec![mesh.clone()]);
                 worst.add(furnace.brightest(scene, 8, camera), || format!("a {name} of 10^{power}, {place}"));
