@@ -2,6 +2,7 @@
 
 mod cleaning;
 mod copies;
+mod far;
 mod formats;
 mod levels;
 mod orthographic;
