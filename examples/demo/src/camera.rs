@@ -151,6 +151,15 @@ mod tests {
     }
 
     #[test]
+    fn far_from_the_origin_it_moves_in_small_steps_too() {
+        let camera = Camera { eye: [524_288.0, 2.0, 4.0], target: [524_288.0, 2.0, 3.0], ..Camera::default() };
+        let mut orbit = Orbit::from(&camera, [524_288.0, 2.0, 0.0]);
+        let before = orbit.camera().eye;
+        orbit.walk([1e-4, 0.0, 0.0]);
+        assert!((orbit.camera().eye[0] - before[0] - 4e-4).abs() < 1e-8);
+    }
+
+    #[test]
     fn it_never_looks_straight_down() {
         let mut orbit = orbit();
         orbit.orbit([0.0, 100.0]);

@@ -212,6 +212,31 @@ mod tests {
     }
 
     #[test]
+    fn a_scene_without_a_camera_is_framed_alike_wherever_it_stands() {
+        let seen = |x: f32| {
+            let mut scene = cornell().scene;
+            scene.nodes.iter_mut().for_each(|node| node.camera = None);
+            scene.nodes.insert(0, scene::Node::default());
+            for node in &mut scene.nodes[1..] {
+                node.parent = Some(node.parent.map_or(0, |parent| parent + 1));
+            }
+            scene.animations.clear();
+            let translation = [x, 0.0, -x];
+            scene.nodes[0].transform =
+                scene::Transform::Trs { translation, rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
+            let mut stage = Stage::new(scene, None, Vec::new());
+            let pose = stage.pose(&still(), 0.0);
+            (stage.camera(&pose, 1.5), stage.reach())
+        };
+        let ((near, reach), (far, far_reach)) = (seen(0.0), seen(524_288.0));
+        for (far, near) in [(far.eye, near.eye), (far.target, near.target)] {
+            let back = DVec3::from(far) - DVec3::new(524_288.0, 0.0, -524_288.0);
+            assert!(back.distance(near.into()) < 1e-6, "{back}, not {near:?}");
+        }
+        assert!((reach - far_reach).abs() < 1e-6 && reach > 0.0);
+    }
+
+    #[test]
     fn only_what_is_chosen_moves() {
         let mut stage = cornell();
         let rest = stage.pose(&still(), 0.5);

@@ -417,10 +417,7 @@ fn huge_break() -> String {
     let mut furnace = Furnace::new(SIZE);
     let first = (4..=12).map(|power| 3.0 * 10.0_f32.powi(power)).find(|&half| large(&mut furnace, half) > ROUNDING);
     first.map_or("none up to 10¹²".into(), |half| {
-        format!(
-            "{:.0e} times: the offset of a ray's origin goes with its place, not with the size of its triangle",
-            half / 3.0
-        )
+        format!("{:.0e} times: depths have the range of 10⁻¹⁸ … 10¹⁸ and rays that of f32", half / 3.0)
     })
 }
 
