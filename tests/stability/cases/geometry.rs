@@ -151,7 +151,7 @@ pub const CASES: &[Case] = &[
         origin: ORIGIN,
         measure: fields_of_view,
         breaks: Breaks::Known(
-            "at π − 10⁻⁶ surfaces are met 10⁷ times as far as the eye is from them, and shadow themselves; 0 and π are refused by name",
+            "at π − 10⁻⁵ surfaces are met 10⁶ times as far as the eye is from their plane, and rounding takes their depth; 0 and π are refused by name",
         ),
     },
 ];
@@ -417,7 +417,7 @@ fn huge_break() -> String {
     let mut furnace = Furnace::new(SIZE);
     let first = (4..=12).map(|power| 3.0 * 10.0_f32.powi(power)).find(|&half| large(&mut furnace, half) > ROUNDING);
     first.map_or("none up to 10¹²".into(), |half| {
-        format!("{:.0e} times: depths have the range of 10⁻¹⁸ … 10¹⁸ and rays that of f32", half / 3.0)
+        format!("{:.0e} times: the square of a triangle's area is infinite there", half / 3.0)
     })
 }
 
