@@ -218,3 +218,92 @@ fn set<T>(items: &mut [T], index: usize, change: impl FnOnce(&mut T)) {
         change(item);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::description::{Node, Perspective};
+
+    const FAR: f64 = 524_288.0;
+
+    fn at(translation: [f32; 3]) -> Transform {
+        Transform::Trs { translation, rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] }
+    }
+
+    /// A turned parent that is far away, and a child with a camera that moves by a millimetre.
+    fn far_family() -> Scene {
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let parent = Transform::Trs {
+            translation: [FAR as f32, 0.0, -FAR as f32],
+            rotation: [0.0, half, 0.0, half],
+            scale: [1.0; 3],
+        };
+        let child = Node { parent: Some(0), transform: at([0.0; 3]), camera: Some(0), ..Default::default() };
+        let channel = Channel {
+            target: Target::Translation(1),
+            interpolation: Interpolation::Linear,
+            times: vec![0.0, 1.0],
+            values: vec![[0.0; 4], [1e-3, 0.0, 0.0, 0.0]],
+        };
+        Scene {
+            nodes: vec![Node { transform: parent, ..Default::default() }, child],
+            cameras: vec![Perspective { fov_y: 0.8 }],
+            animations: vec![Animation { name: "move".into(), channels: vec![channel] }],
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn a_child_of_a_far_parent_moves_in_small_steps() {
+        let scene = far_family();
+        for i in 0..10 {
+            let time = i as f32 / 10.0;
+            let pose = scene.pose(Some(0), time);
+            // A quarter turn about y takes +X to −Z.
+            let [x, y, z, _] = pose.world[1][3];
+            assert!((x - FAR).abs() < 1e-9 && y.abs() < 1e-9, "{x}, {y}");
+            assert!((z + FAR + 1e-3 * f64::from(time)).abs() < 1e-9, "{z} at {time}");
+            let view = scene.camera_view(&pose, 1).unwrap();
+            assert_eq!(view.eye, [x, y, z]);
+            let way = [0, 1, 2].map(|axis| view.target[axis] - view.eye[axis]);
+            assert!((way[0] + 1.0).abs() < 1e-6 && way[2].abs() < 1e-6, "{way:?}");
+        }
+    }
+
+    #[test]
+    fn curves_between_far_keys_do_not_go_in_steps() {
+        let mut scene = far_family();
+        let channel = &mut scene.animations[0].channels[0];
+        channel.target = Target::Translation(0);
+        let keys = [[FAR as f32, 0.0, 0.0, 0.0], [FAR as f32 + 1.0, 0.0, 0.0, 0.0]];
+        for interpolation in [Interpolation::Linear, Interpolation::CubicSpline] {
+            let channel = &mut scene.animations[0].channels[0];
+            channel.interpolation = interpolation;
+            channel.values = match interpolation {
+                Interpolation::CubicSpline => {
+                    let tangent = [1.0, 0.0, 0.0, 0.0];
+                    keys.iter().flat_map(|&key| [tangent, key, tangent]).collect()
+                }
+                _ => keys.to_vec(),
+            };
+            for time in [0.001_f32, 0.3, 0.77] {
+                let x = scene.pose(Some(0), time).world[0][3][0];
+                assert!((x - FAR - f64::from(time)).abs() < 1e-9, "{interpolation:?}: {x} at {time}");
+            }
+        }
+    }
+
+    #[test]
+    fn bounds_of_what_is_far_are_as_narrow_as_near() {
+        let mut scene = far_family();
+        scene.materials.push(Default::default());
+        scene.meshes.push(crate::scene::Mesh {
+            positions: vec![[0.0; 3], [1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0]],
+            triangles: vec![[0, 1, 2]],
+            ..Default::default()
+        });
+        scene.nodes[1].meshes.push(0);
+        let [low, high] = scene.bounds(&scene.pose(None, 0.0)).unwrap();
+        assert!((high[2] - low[2] - 1e-3).abs() < 1e-9 && (high[1] - 1e-3).abs() < 1e-9, "{low:?}, {high:?}");
+    }
+}
