@@ -1,12 +1,13 @@
 //! A host's images far from the origin: what is blended follows from the way between the cameras, not from where they are.
 
-use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, replay, target, view};
+use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, target, view};
 use crate::common::gpu::gpu;
 use crate::common::plane::{cross, sub, unit};
 use crate::common::statistics::Rgb;
 use asvgf::{Camera, Matrices, Settings, Surfaces, View, Viewpoint};
 
-const PLACE: [f64; 3] = [524_288.0, -8192.0, 6.0e6];
+/// So far that an eye in f32 would stand still for some frames, and then jump by four metres.
+const PLACE: [f64; 3] = [6.0e7 + 1.85, -8192.0, 524_288.0];
 
 /// What becomes of frames that are seen from elsewhere.
 fn replay_from(frames: &[Recorded], elsewhere: impl Fn(&Camera) -> Viewpoint) -> (Vec<Vec<Rgb>>, Vec<Rgb>) {
@@ -16,7 +17,9 @@ fn replay_from(frames: &[Recorded], elsewhere: impl Fn(&Camera) -> Viewpoint) ->
     for frame in frames {
         let host = Uploaded::new(gpu(), frame);
         gpu().submit(|encoder| {
-            let surfaces = Surfaces { camera: elsewhere(&frame.camera), ..host.surfaces() };
+            // The depths that points had follow from the cameras.
+            let camera = elsewhere(&frame.camera);
+            let surfaces = Surfaces { camera, previous_depth: None, ..host.surfaces() };
             denoiser.begin_frame(&gpu().device, encoder, &surfaces).unwrap();
             denoiser.denoise(&gpu().device, encoder, &host.shading(&target)).unwrap();
         });
@@ -46,9 +49,7 @@ fn away(at: [f64; 3]) -> [f64; 3] {
 #[test]
 fn the_same_images_give_the_same_result_wherever_the_camera_is() {
     let frames = recorded(Settings::adaptive());
-    let mut own = denoiser(Settings::adaptive());
-    let near = replay(&mut own, &frames);
-    let lengths = view(&mut own, View::HistoryLength);
+    let (near, lengths) = replay_from(&frames, |c| (*c).into());
     let far = |c: &Camera| Camera { eye: away(c.eye), target: away(c.target), ..*c }.into();
     let relative = |c: &Camera| Viewpoint::Relative { matrices: without_place(c), origin: away(c.eye) };
     let far = replay_from(&frames, far);
