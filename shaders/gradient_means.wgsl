@@ -11,7 +11,7 @@
 // The reference is the first pixel with a history, from the centre on. A history of one sample says nothing about v: until n is 5, a
 // deviation of twice the mean is mixed in.
 
-#import asvgf::frame::{frame, inside, sample_point, world_position, scale_at}
+#import asvgf::frame::{frame, inside, sample_point, seen_position, scale_at}
 #import asvgf::color::luminance
 #import asvgf::history_taps::{History, bilinear_taps, mean_of, motion_of, origin_at}
 #import asvgf::means::{Means, pack_before, pack_now, scaled}
@@ -72,7 +72,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if depth <= 0.0 {
             continue;
         }
-        let point = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
+        let point = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
         let n = unpack_normal(g.x);
         if record.x != 0u && (abs(dot(normal, point - place)) > reach || dot(normal, n) < SAME_NORMAL) {
             continue;

@@ -7,7 +7,7 @@
 // The host's own numbers tell that, to their last bit: what the filter keeps of them is rounded, and a surface shaded beside
 // itself may shadow itself.
 
-#import asvgf::frame::{frame, project, sample_point, world_position}
+#import asvgf::frame::{frame, project, sample_point, seen_position}
 #import asvgf::packing::unpack_normal
 #import asvgf::strata::{previous_pixel, sample_pixel}
 
@@ -51,17 +51,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let point = sample_point(frame.camera, vec2<f32>(pixel));
         // The pixel's own surface tells how far its neighbour's has moved: exactly where it is shifted, and to a part of a pixel's
         // width where it turns.
-        let now = world_position(frame.camera, point, depth);
+        let now = seen_position(frame.camera, point, depth);
 #ifdef PREVIOUS_DEPTH
         let z = textureLoad(previous_depth, pixel, 0).x;
 #else
         let z = project(frame.previous, now).z;
 #endif
         let m = vec3(textureLoad(motion, pixel, 0).xy, z);
-        let moved = now - world_position(frame.previous, point + m.xy, m.z);
+        let moved = now - seen_position(frame.previous, point + m.xy, m.z);
         let q = previous_pixel(record);
         let before = textureLoad(guide_previous, q, 0).xy;
-        let seen = world_position(frame.previous, sample_point(frame.previous, vec2<f32>(q)), bitcast<f32>(before.y));
+        let seen = seen_position(frame.previous, sample_point(frame.previous, vec2<f32>(q)), bitcast<f32>(before.y));
         shift = select(moved, vec3(0.0), rests(now, moved, seen, point, m, unpack_normal(record.z)));
         which = vec4(record.xy, before);
     }

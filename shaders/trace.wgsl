@@ -12,7 +12,7 @@
 #else
 #import asvgf::traverse::{closest_hit, occluded}
 #endif
-#import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at, offset_origin}
+#import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at}
 #import asvgf::material::{Surface, surface_at, demodulation, scattering, sample_direction}
 #import asvgf::light::{environment_radiance, environment_density, emitter_density}
 #ifdef LIGHTS
@@ -92,7 +92,7 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
         let lobe = uniform_float(&state);
         let direction_u = vec2(uniform_float(&state), uniform_float(&state));
         let survival = uniform_float(&state);
-        let origin = offset_origin(s.position, s.geometric);
+        let origin = s.position + s.margin * s.geometric;
 #ifdef ALPHA_BLEND
         cover_at_random(state);
 #endif

@@ -1,6 +1,6 @@
 // Shows one intermediate image: as numbers in a float target, as a picture in an rgba8unorm one.
 
-#import asvgf::frame::{frame, inside, project, sample_point, world_position}
+#import asvgf::frame::{frame, inside, project, sample_point, seen_position}
 #import asvgf::color::{is_finite, luminance}
 #import asvgf::packing::{unpack_rgb, unpack_motion, unpack_normal}
 #import asvgf::random::hash
@@ -207,7 +207,7 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #if VIEW == 14
     let depth = bitcast<f32>(textureLoad(guide, pixel, 0).y);
     let point = sample_point(frame.camera, vec2<f32>(pixel));
-    let rest = project(frame.previous, world_position(frame.camera, point, depth));
+    let rest = project(frame.previous, seen_position(frame.camera, point, depth));
     let implied = vec3(rest.xy - point, rest.z);
     return select(vec3(0.0), unpack_motion(textureLoad(motion, pixel, 0).xy) - implied, depth > 0.0 && rest.z > 0.0);
 #endif

@@ -53,8 +53,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let now = triangle_now(v);
         let weights = barycentrics(now, ray.origin, ray.direction);
         let normal = shading_normal(v, weights, geometric_normal(now, ray.direction));
-        let here = project(frame.camera, at(now, weights));
-        let before = project(frame.previous, at(triangle_before(v), weights));
+        let here = project(frame.camera, at(now, weights) - ray.origin);
+        let before = project(frame.previous, at(triangle_before(v), weights) - ray.origin);
         id_seen = visibility_id(hit.triangle, hit.instance);
         object = hit.instance;
         guide = vec2(pack_normal(normal), bitcast<u32>(here.z));

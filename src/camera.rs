@@ -7,10 +7,10 @@ use bytemuck::{Pod, Zeroable};
 /// x right, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where it is.
-    pub eye: [f32; 3],
+    /// Where it is. In double precision, so that it moves smoothly however far it is from the origin.
+    pub eye: [f64; 3],
     /// A point that it looks at, not `eye` itself.
-    pub target: [f32; 3],
+    pub target: [f64; 3],
     /// A direction that shall point up in the image, not along the view.
     pub up: [f32; 3],
     /// Vertical field of view in radians, 0 < fov < π.
@@ -40,13 +40,21 @@ pub struct Matrices {
     pub jitter: [f32; 2],
 }
 
-/// Where a frame is seen from. Both kinds convert into it.
+/// Where a frame is seen from. [`Camera`] and [`Matrices`] convert into it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {
     /// Given by where it is and what it looks at.
     Camera(Camera),
     /// Given by its matrices.
     Matrices(Matrices),
+    /// Given by its matrices in a space that moves along, as renderers of large worlds have it: often the view matrix has no translation
+    /// at all.
+    Relative {
+        /// The camera in that space.
+        matrices: Matrices,
+        /// Where in the world that space has its origin, in this frame.
+        origin: [f64; 3],
+    },
 }
 
 impl From<Camera> for Viewpoint {
@@ -62,10 +70,45 @@ impl From<Matrices> for Viewpoint {
 }
 
 impl Viewpoint {
-    pub(crate) fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
+    pub(crate) fn placed(&self, size: [u32; 2]) -> Result<PlacedCamera, Error> {
         match self {
-            Self::Camera(camera) => camera.uniform(size),
-            Self::Matrices(matrices) => matrices.uniform(size),
+            Self::Camera(camera) => camera.placed(size),
+            Self::Matrices(matrices) => matrices.placed(size),
+            Self::Relative { origin, .. } if !origin.iter().all(|x| x.is_finite()) => {
+                Err(Error::Camera { element: "origin", reason: "is not finite" })
+            }
+            Self::Relative { matrices, origin } => {
+                let placed = matrices.placed(size)?;
+                Ok(PlacedCamera { eye: add(placed.eye, *origin), ..placed })
+            }
+        }
+    }
+
+    /// Where in the world the host's coordinates count from.
+    pub(crate) fn origin(&self) -> [f64; 3] {
+        match self {
+            Self::Camera(_) | Self::Matrices(_) => [0.0; 3],
+            Self::Relative { origin, .. } => *origin,
+        }
+    }
+}
+
+/// A camera for an image's size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PlacedCamera {
+    eye: [f64; 3],
+    /// The rest, its eye at 0.
+    rays: CameraUniform,
+}
+
+impl PlacedCamera {
+    /// The camera in coordinates that count from `origin`, in a frame that is seen by `now`.
+    pub fn uniform(&self, origin: [f64; 3], now: &Self) -> CameraUniform {
+        // f32 has steps of 3 cm at 500 km: differences have to be taken before rounding.
+        CameraUniform {
+            eye: narrow(subtract(self.eye, origin)),
+            offset: narrow(subtract(self.eye, now.eye)),
+            ..self.rays
         }
     }
 }
@@ -85,18 +128,24 @@ pub(crate) struct CameraUniform {
     inverse_du: f32,
     dv: [f32; 3],
     inverse_dv: f32,
+    /// The eye less that of this frame's camera.
+    offset: [f32; 3],
+    // WGSL rounds a struct's size up to that of a vector.
+    padding: f32,
 }
 
 impl Camera {
     /// The affine map from pixel to ray: direction = corner + x·du + y·dv, with unit component along `forward`. In f64, so
     /// that the f32 results are as good as they can be for very narrow and very wide views.
-    pub(crate) fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
+    pub(crate) fn placed(&self, size: [u32; 2]) -> Result<PlacedCamera, Error> {
         let wrong = |element, reason| Err(Error::Camera { element, reason });
         let finite = |v: &[f32]| v.iter().all(|x| x.is_finite());
-        if !finite(&self.eye) {
+        // Beyond f32's range it would be infinite in shaders.
+        let in_range = |v: [f64; 3]| v.iter().all(|x| x.abs() <= f64::from(f32::MAX));
+        if !in_range(self.eye) {
             return wrong("eye", "is not finite");
         }
-        if !finite(&self.target) || !finite(&self.up) {
+        if !in_range(self.target) || !finite(&self.up) {
             return wrong("target or up", "is not finite");
         }
         if !(self.fov_y > 0.0 && self.fov_y < std::f32::consts::PI) {
@@ -105,8 +154,7 @@ impl Camera {
         if !finite(&self.jitter) {
             return wrong("jitter", "is not finite");
         }
-        let eye = self.eye.map(f64::from);
-        let Some(forward) = normalize(subtract(self.target.map(f64::from), eye)) else {
+        let Some(forward) = normalize(subtract(self.target, self.eye)) else {
             return wrong("target", "must differ from the eye");
         };
         let Some(right) = normalize(cross(forward, self.up.map(f64::from))) else {
@@ -117,16 +165,15 @@ impl Camera {
         let half = [f64::from(size[0]) / 2.0, f64::from(size[1]) / 2.0];
         let (du, dv) = (scale(right, pixel), scale(up, -pixel));
         let corner = subtract(subtract(forward, scale(du, half[0])), scale(dv, half[1]));
-        Ok(CameraUniform::new(eye, forward, [corner, du, dv], self.jitter))
+        Ok(PlacedCamera { eye: self.eye, rays: CameraUniform::new(forward, [corner, du, dv], self.jitter) })
     }
 }
 
 impl CameraUniform {
-    /// From where, which way, and the affine map from pixel to ray: corner, du, dv.
-    fn new(eye: [f64; 3], forward: [f64; 3], [corner, du, dv]: [[f64; 3]; 3], jitter: [f32; 2]) -> Self {
-        let narrow = |v: [f64; 3]| v.map(|x| x as f32);
+    /// Which way, and the affine map from pixel to ray: corner, du, dv.
+    fn new(forward: [f64; 3], [corner, du, dv]: [[f64; 3]; 3], jitter: [f32; 2]) -> Self {
         Self {
-            eye: narrow(eye),
+            eye: [0.0; 3],
             jitter_x: jitter[0],
             forward: narrow(forward),
             jitter_y: jitter[1],
@@ -136,16 +183,18 @@ impl CameraUniform {
             inverse_du: (1.0 / dot(du, du)) as f32,
             dv: narrow(dv),
             inverse_dv: (1.0 / dot(dv, dv)) as f32,
+            offset: [0.0; 3],
+            padding: 0.0,
         }
     }
 }
 
 impl Matrices {
-    /// As [`Camera::uniform`]. A point v of view space has the linear depth z = s·v_z, s = ±1 by handedness, and the image point
+    /// As [`Camera::placed`]. A point v of view space has the linear depth z = s·v_z, s = ±1 by handedness, and the image point
     /// ndc = A·(v_xy/z) + s·(P₂₀, P₂₁) with A the upper left 2×2 of the projection, divided by |P₂₃|. Solved for v_xy/z, and turned
     /// into world space, that is the ray of an image point, affine in it. In an orthographic view, divided by P₃₃,
     /// ndc = A·v_xy + (P₃₀, P₃₁), and what is affine is the place of the ray instead of its direction.
-    fn uniform(&self, size: [u32; 2]) -> Result<CameraUniform, Error> {
+    fn placed(&self, size: [u32; 2]) -> Result<PlacedCamera, Error> {
         let wrong = |element, reason| Err(Error::Camera { element, reason });
         let finite = |m: &[[f32; 4]; 4]| m.iter().flatten().all(|x| x.is_finite());
         if !finite(&self.view) || self.view.map(|c| c[3]) != [0.0, 0.0, 0.0, 1.0] {
@@ -206,9 +255,17 @@ impl Matrices {
             return wrong("projection", "shears the image");
         }
         let eye = scale(world(translation), -1.0);
-        let uniform = CameraUniform::new(eye, world([0.0, 0.0, side]), [corner, du, dv], self.jitter);
-        Ok(CameraUniform { orthographic: f32::from(u8::from(orthographic)), ..uniform })
+        let rays = CameraUniform::new(world([0.0, 0.0, side]), [corner, du, dv], self.jitter);
+        Ok(PlacedCamera { eye, rays: CameraUniform { orthographic: f32::from(u8::from(orthographic)), ..rays } })
     }
+}
+
+fn narrow(a: [f64; 3]) -> [f32; 3] {
+    a.map(|x| x as f32)
+}
+
+fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 fn subtract(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -236,6 +293,11 @@ fn normalize(a: [f64; 3]) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
 
+    /// The camera alone, in the world.
+    fn alone(placed: PlacedCamera) -> CameraUniform {
+        placed.uniform([0.0; 3], &placed)
+    }
+
     fn along(u: &CameraUniform, x: f64, y: f64) -> [f64; 3] {
         let part = |i: usize| f64::from(u.corner[i]) + x * f64::from(u.du[i]) + y * f64::from(u.dv[i]);
         [part(0), part(1), part(2)]
@@ -244,7 +306,7 @@ mod tests {
     #[test]
     fn the_image_centre_looks_forward_and_the_top_edge_is_half_the_field_of_view_up() {
         let camera = Camera { eye: [1.0, 2.0, 3.0], target: [1.0, 2.0, -5.0], fov_y: 1.0, ..Default::default() };
-        let u = camera.uniform([64, 48]).unwrap();
+        let u = alone(camera.placed([64, 48]).unwrap());
         let centre = along(&u, 32.0, 24.0);
         assert!(centre[0].abs() < 1e-6 && centre[1].abs() < 1e-6 && (centre[2] + 1.0).abs() < 1e-6);
         let top = along(&u, 32.0, 0.0);
@@ -257,18 +319,43 @@ mod tests {
     #[cfg(feature = "path-tracer")]
     fn the_camera_lies_where_the_shader_reads_it() {
         use crate::twins::layout::{assert_layout, fields};
-        let fields = fields!(CameraUniform: eye, jitter_x, forward, jitter_y, corner, orthographic, du, inverse_du, dv, inverse_dv);
+        let fields = fields!(CameraUniform: eye, jitter_x, forward, jitter_y, corner, orthographic, du, inverse_du, dv, inverse_dv, offset);
         assert_layout("Camera", fields, size_of::<CameraUniform>());
     }
 
     #[test]
+    fn far_cameras_keep_the_small_way_between_them() {
+        let far = 524_288.0;
+        let now = Camera { eye: [far + 1e-3, 2.0, -far], target: [far, 2.0, 5.0 - far], ..Default::default() };
+        let before = Camera { eye: [far, 2.0, -far - 2e-3], ..now };
+        let [now, before] = [now, before].map(|c| c.placed([64, 48]).unwrap());
+        assert_eq!(now.uniform([0.0; 3], &now).offset, [0.0; 3]);
+        let offset = before.uniform([0.0; 3], &now).offset.map(f64::from);
+        assert!((offset[0] + 1e-3).abs() < 1e-9 && (offset[2] + 2e-3).abs() < 1e-9, "{offset:?}");
+        let eye = now.uniform([far, 0.0, -far], &now).eye.map(f64::from);
+        assert!((eye[0] - 1e-3).abs() < 1e-9 && eye[2] == 0.0, "{eye:?}");
+    }
+
+    #[test]
+    fn matrices_may_count_from_a_point_that_moves_along() {
+        let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+        let projection = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 0.1, 0.0]];
+        let matrices = Matrices { view: unit, projection, jitter: [0.0; 2] };
+        let at = |x: f64| Viewpoint::Relative { matrices, origin: [x, 0.0, 0.0] };
+        let [before, now] = [6.0e6, 6.0e6 + 0.125].map(|x| at(x).placed([8, 8]).unwrap());
+        let uniform = before.uniform(at(6.0e6 + 0.125).origin(), &now);
+        assert_eq!((uniform.eye, uniform.offset), ([-0.125, 0.0, 0.0], [-0.125, 0.0, 0.0]));
+        assert!(matches!(at(f64::NAN).placed([8, 8]), Err(Error::Camera { element: "origin", .. })));
+    }
+
+    #[test]
     fn an_impossible_camera_is_refused_by_name() {
-        let named = |c: Camera| match c.uniform([8, 8]) {
+        let named = |c: Camera| match c.placed([8, 8]) {
             Err(Error::Camera { element, .. }) => element,
             other => panic!("{other:?}"),
         };
         let c = Camera::default();
-        assert_eq!(named(Camera { eye: [f32::NAN, 0.0, 0.0], ..c }), "eye");
+        assert_eq!(named(Camera { eye: [f64::NAN, 0.0, 0.0], ..c }), "eye");
         assert_eq!(named(Camera { target: c.eye, ..c }), "target");
         assert_eq!(named(Camera { up: [0.0, 0.0, 1.0], ..c }), "up");
         assert_eq!(named(Camera { fov_y: 3.2, ..c }), "fov_y");
@@ -278,7 +365,7 @@ mod tests {
     /// The same view by a matrix: right-handed, looking along −Z.
     #[cfg(feature = "path-tracer")]
     fn view_rh(c: &Camera) -> glam::Mat4 {
-        glam::camera::rh::view::look_at_mat4(c.eye.into(), c.target.into(), c.up.into())
+        glam::camera::rh::view::look_at_mat4(narrow(c.eye).into(), narrow(c.target).into(), c.up.into())
     }
 
     #[cfg(feature = "path-tracer")]
@@ -301,7 +388,7 @@ mod tests {
         use glam::camera::{lh, rh};
         let c = oblique();
         let (size, aspect, fov) = ([64, 48], 64.0 / 48.0, c.fov_y);
-        let expected = c.uniform(size).unwrap();
+        let expected = alone(c.placed(size).unwrap());
         let right = view_rh(&c);
         // The same world, looking along +Z of a view space that is its mirror image.
         let left = glam::Mat4::from_scale(glam::Vec3::new(1.0, 1.0, -1.0)) * right;
@@ -318,7 +405,8 @@ mod tests {
         ];
         for (what, view, projection) in conventions {
             let (view, projection) = (view.to_cols_array_2d(), projection.to_cols_array_2d());
-            assert_same(&Matrices { view, projection, jitter: c.jitter }.uniform(size).unwrap(), &expected, what);
+            let matrices = Matrices { view, projection, jitter: c.jitter };
+            assert_same(&alone(matrices.placed(size).unwrap()), &expected, what);
         }
     }
 
@@ -338,13 +426,13 @@ mod tests {
             Vec4::new(0.0, 0.0, -n, 0.0),
         );
         // And a world that is left-handed itself.
-        let left = lh::view::look_at_mat4(c.eye.into(), c.target.into(), c.up.into());
+        let left = lh::view::look_at_mat4(narrow(c.eye).into(), narrow(c.target).into(), c.up.into());
         let views = [(view_rh(&c), off_centre), (left, lh::proj::directx::perspective(0.9, 0.7, 0.1, 50.0))];
         let points = [Vec3::new(-0.4, 0.3, -1.5), Vec3::new(0.2, -0.1, 0.3), Vec3::new(-1.5, 1.0, -4.0)];
         for ((view, projection), point) in views.into_iter().flat_map(|v| points.map(|p| (v, p))) {
             let matrices =
                 Matrices { view: view.to_cols_array_2d(), projection: projection.to_cols_array_2d(), jitter: [0.0; 2] };
-            let u = matrices.uniform([64, 48]).unwrap();
+            let u = alone(matrices.placed([64, 48]).unwrap());
             let clip = projection * view * point.extend(1.0);
             let (x, y) = ((clip.x / clip.w + 1.0) / 2.0 * size[0], (1.0 - clip.y / clip.w) / 2.0 * size[1]);
             let d = along(&u, x.into(), y.into());
@@ -376,7 +464,7 @@ mod tests {
         for ((view, projection), point) in conventions.into_iter().flat_map(|v| points.map(|p| (v, p))) {
             let matrices =
                 Matrices { view: view.to_cols_array_2d(), projection: projection.to_cols_array_2d(), jitter: [0.0; 2] };
-            let u = matrices.uniform([64, 48]).unwrap();
+            let u = alone(matrices.placed([64, 48]).unwrap());
             assert_eq!(u.orthographic, 1.0);
             let clip = projection * view * point.extend(1.0);
             let (x, y) = ((clip.x / clip.w + 1.0) / 2.0 * 64.0, (1.0 - clip.y / clip.w) / 2.0 * 48.0);
@@ -395,8 +483,8 @@ mod tests {
         let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
         let projection = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, -1.0], [0.0, 0.0, 0.1, 0.0]];
         let good = Matrices { view: unit, projection, jitter: [0.0; 2] };
-        assert!(good.uniform([8, 8]).is_ok());
-        let named = |m: Matrices| match Viewpoint::from(m).uniform([8, 8]) {
+        assert!(good.placed([8, 8]).is_ok());
+        let named = |m: Matrices| match Viewpoint::from(m).placed([8, 8]) {
             Err(Error::Camera { element, .. }) => element,
             other => panic!("{other:?}"),
         };

@@ -1,6 +1,6 @@
 //! The [`Denoiser`]: carries out a [`Plan`] in the host's encoder.
 
-use crate::camera::CameraUniform;
+use crate::camera::PlacedCamera;
 use crate::gpu::compose::Permutation;
 use crate::gpu::counts::{Counters, InputCounts};
 use crate::gpu::filled::filled;
@@ -95,7 +95,7 @@ pub struct Denoiser {
 pub(crate) struct LastFrame {
     pub plan: Plan,
     pub uniform: Buffer,
-    pub camera: CameraUniform,
+    pub camera: PlacedCamera,
     pub source: Source,
     pub index: u32,
 }

@@ -68,7 +68,7 @@ impl Denoiser {
             return Err(Error::GradientSource { asked, reason });
         }
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
-        let camera = frame.camera.uniform(self.size)?;
+        let camera = frame.camera.placed(self.size)?;
         let traits = self.traits(scene);
         let most = self.adapt(Plan::path_traced(&traits, &self.settings, Changes::ANY, format));
         let now = scene.snapshot();
@@ -94,7 +94,8 @@ impl Denoiser {
         self.compile(&plan.steps, traversal)?;
         let previous = last.map_or(camera, |l| l.camera);
         let continued = last.is_some();
-        let moment = Moment { camera, previous, index, continued, lambda_block: 1, converges: plan.converges() };
+        let (origin, converges) = (scene.centre(), plan.converges());
+        let moment = Moment { camera, previous, origin, index, continued, lambda_block: 1, converges };
         let before = match last.map(|l| &l.source) {
             Some(Source::Scene(before, _)) => before.clone(),
             _ => now.clone(),

@@ -44,7 +44,7 @@ fn assert_measures(name: &str, loaded: &Loaded, expected: &Value) {
     for (end, corner) in bounds.iter().enumerate() {
         for (axis, &actual) in corner.iter().enumerate() {
             let expected = number(end, axis);
-            assert!((f64::from(actual) - expected).abs() <= 1e-4 * extent, "{name}: bounds {bounds:?}, not {expected}");
+            assert!((actual - expected).abs() <= 1e-4 * extent, "{name}: bounds {bounds:?}, not {expected}");
         }
     }
     if let Some(expected) = expected["emissive_triangles"].as_u64() {

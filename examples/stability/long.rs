@@ -129,8 +129,8 @@ fn shaking() -> Worst {
         };
         // A pixel is about a twelfth of the field of view wide, here 0.2 m at the box.
         let mut camera = Camera { jitter: [random(0), random(1)], ..still };
-        camera.eye[0] += 0.2 * random(2);
-        camera.eye[1] += 0.2 * random(3);
+        camera.eye[0] += 0.2 * f64::from(random(2));
+        camera.eye[1] += 0.2 * f64::from(random(3));
         camera
     };
     let (mut late, mut truth) = (0.0, 0.0);

@@ -81,7 +81,7 @@ pub fn write_manifest(folder: &Path, size: [u32; 2], cameras: &[asvgf::Camera]) 
 
 /// The same camera by its directions.
 fn camera(seen: asvgf::Camera, size: [u32; 2]) -> Camera {
-    let [eye, target, up] = [seen.eye, seen.target, seen.up].map(|v| v.map(f64::from));
+    let (eye, target, up) = (seen.eye, seen.target, seen.up.map(f64::from));
     let forward = unit(std::array::from_fn(|i| target[i] - eye[i]));
     let right = unit(cross(forward, up));
     let lens = Lens::Perspective(Raster::whole(size).slope_of(seen.fov_y.into()));

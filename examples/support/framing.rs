@@ -2,27 +2,27 @@
 
 use asvgf::Camera;
 use asvgf::scene::Scene;
-use glam::Vec3;
+use glam::DVec3;
 
 /// The box around everything, at rest and at some moments of the animation.
-pub fn bounds(scene: &Scene) -> Option<[Vec3; 2]> {
+pub fn bounds(scene: &Scene) -> Option<[DVec3; 2]> {
     let moments = 12;
     let duration = scene.duration(Some(0));
     let times = (0..moments).map(|i| duration * i as f32 / moments as f32);
     let boxes = times.filter_map(|time| scene.bounds(&scene.pose(Some(0), time)));
-    boxes.map(|b| b.map(Vec3::from)).reduce(|[low, high], [l, h]| [low.min(l), high.max(h)])
+    boxes.map(|b| b.map(DVec3::from)).reduce(|[low, high], [l, h]| [low.min(l), high.max(h)])
 }
 
 /// A camera in front, to the right and slightly above, so far away that the box just fits.
-pub fn framing([low, high]: [Vec3; 2], aspect: f32, fov_y: f32) -> Camera {
-    let towards = Vec3::new(0.55, 0.35, 1.0).normalize();
-    let right = Vec3::Y.cross(towards).normalize();
+pub fn framing([low, high]: [DVec3; 2], aspect: f32, fov_y: f32) -> Camera {
+    let towards = DVec3::new(0.55, 0.35, 1.0).normalize();
+    let right = DVec3::Y.cross(towards).normalize();
     let up = towards.cross(right);
     let centre = 0.5 * (low + high);
-    let slope = (fov_y / 2.0).tan();
+    let (slope, aspect) = (f64::from(fov_y / 2.0).tan(), f64::from(aspect));
     // A corner at (x, y, z) in the camera's directions is in the picture from a distance of z + |y| / slope on.
-    let distance = (0..8_u32).fold(0.0_f32, |distance, i| {
-        let corner = Vec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low) - centre;
+    let distance = (0..8_u32).fold(0.0_f64, |distance, i| {
+        let corner = DVec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low) - centre;
         let sideways = (corner.dot(right).abs() / aspect).max(corner.dot(up).abs());
         distance.max(corner.dot(towards) + 1.05 * sideways / slope)
     });

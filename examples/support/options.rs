@@ -6,6 +6,7 @@ use asvgf::{Gradient, Mode, Settings, View};
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// What `--help` prints.
 pub const HELP: &str = "\
@@ -105,8 +106,8 @@ pub enum Source {
 /// What overrides the scene's own camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {
-    pub eye: Option<[f32; 3]>,
-    pub target: Option<[f32; 3]>,
+    pub eye: Option<[f64; 3]>,
+    pub target: Option<[f64; 3]>,
     pub up: Option<[f32; 3]>,
     /// In radians.
     pub fov_y: Option<f32>,
@@ -336,9 +337,9 @@ impl Value {
         Ok(())
     }
 
-    fn vector(&self) -> Result<[f32; 3], Usage> {
-        let numbers: Option<Vec<f32>> =
-            self.text.split(',').map(|t| t.trim().parse().ok().filter(|x: &f32| x.is_finite())).collect();
+    fn vector<T: FromStr + Copy + Into<f64>>(&self) -> Result<[T; 3], Usage> {
+        let numbers: Option<Vec<T>> =
+            self.text.split(',').map(|t| t.trim().parse().ok().filter(|&x: &T| x.into().is_finite())).collect();
         let vector = numbers.and_then(|numbers| numbers.try_into().ok());
         vector.ok_or_else(|| self.wrong("must be three numbers, as in 0,1.5,4"))
     }

@@ -6,7 +6,7 @@ use crate::options::{Options, Source, Viewpoint};
 use crate::sky::{is_dark, sky};
 use asvgf::Camera;
 use asvgf::scene::{self, Environment, Loaded, Pose, Scene, Warning, builtin};
-use glam::Vec3;
+use glam::DVec3;
 use std::error::Error;
 use std::path::Path;
 
@@ -22,7 +22,7 @@ pub struct Stage {
     viewpoint: Viewpoint,
     jitter: bool,
     /// Box around everything during the whole animation.
-    bounds: [Vec3; 2],
+    bounds: [DVec3; 2],
     aspect: f32,
 }
 
@@ -46,7 +46,7 @@ impl Stage {
         }
         let bounds = bounds(&scene).unwrap_or_else(|| {
             eprintln!("warning: the scene has no triangles");
-            [Vec3::NEG_ONE, Vec3::ONE]
+            [DVec3::NEG_ONE, DVec3::ONE]
         });
         let aspect = options.size[0] as f32 / options.size[1] as f32;
         Ok(Self { scene, viewpoint: options.viewpoint, jitter: options.jitter, bounds, aspect })

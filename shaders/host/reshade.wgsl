@@ -14,6 +14,8 @@ struct AsvgfCamera {
     inverse_du: f32,
     dv: vec3<f32>,
     inverse_dv: f32,
+    // The eye, less that of this frame's camera.
+    offset: vec3<f32>,
 }
 
 // The first members of the frame's constants.

@@ -2,7 +2,7 @@
 
 // How much the light on a pixel's surface has changed, from the gradient of the strata around it.
 
-#import asvgf::frame::{frame, sample_point, world_position, scale_at}
+#import asvgf::frame::{frame, sample_point, seen_position, scale_at}
 #import asvgf::edge_stop::falloff
 #import asvgf::strata_filter::{PLANE, geometric_exponent, in_grid, site}
 
@@ -62,7 +62,7 @@ fn add_stratum(
 // its own, and a change that these missed (of indirect light, say, which one path in twenty finds) would stay for a
 // whole history.
 fn change_at(pixel: vec2<i32>, normal: vec3<f32>, depth: f32, seen: bool) -> Change {
-    let here = world_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
+    let here = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     let grid = (vec2<f32>(pixel) + 0.5) / 3.0 - 0.5;
     let base = vec2<i32>(floor(grid));
     var sum = Strata();

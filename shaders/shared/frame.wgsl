@@ -5,6 +5,7 @@
 // `eye + z·direction`. In an orthographic view all rays are parallel, and what spreads them does not grow with the depth:
 // `eye + z·forward + (direction − forward)`.
 struct Camera {
+    // In the coordinates of the scene, which count from its centre, or in those of the host.
     eye: vec3<f32>,
     // Where in its pixel a ray goes through the image, from the centre, in pixels.
     jitter_x: f32,
@@ -19,6 +20,8 @@ struct Camera {
     dv: vec3<f32>,
     // 1 / |dv|²
     inverse_dv: f32,
+    // The eye, less that of this frame's camera.
+    offset: vec3<f32>,
 }
 
 // One frame's constants. Mirrored by `FrameUniform` in src/gpu/frame.rs.
@@ -99,14 +102,15 @@ fn sample_point(camera: Camera, pixel: vec2<f32>) -> vec2<f32> {
     return pixel + 0.5 + vec2(camera.jitter_x, camera.jitter_y);
 }
 
-fn world_position(camera: Camera, image_point: vec2<f32>, depth: f32) -> vec3<f32> {
+// Where a pixel's surface is, from this frame's eye: the eyes' own coordinates may be so large that small distances are lost beside them.
+fn seen_position(camera: Camera, image_point: vec2<f32>, depth: f32) -> vec3<f32> {
     let d = direction(camera, image_point);
-    return camera.eye + select(depth * d, (d - camera.forward) + depth * camera.forward, is_orthographic(camera));
+    return camera.offset + select(depth * d, (d - camera.forward) + depth * camera.forward, is_orthographic(camera));
 }
 
-// (x, y) in pixels and the linear depth of a world position; meaningless where the depth is not positive.
+// (x, y) in pixels and the linear depth of a point that is given from this frame's eye; meaningless where the depth is not positive.
 fn project(camera: Camera, position: vec3<f32>) -> vec3<f32> {
-    let offset = position - camera.eye;
+    let offset = position - camera.offset;
     let depth = dot(offset, camera.forward);
     let d = select(offset / depth, offset - (depth - 1.0) * camera.forward, is_orthographic(camera)) - camera.corner;
     return vec3(dot(d, camera.du) * camera.inverse_du, dot(d, camera.dv) * camera.inverse_dv, depth);

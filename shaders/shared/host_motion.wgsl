@@ -3,7 +3,7 @@
 // A host's motion, cleaned before it reaches history: what ingest_surface.wgsl stores, or (HOST_MOTION) what
 // temporal.wgsl reads instead.
 
-#import asvgf::frame::{frame, project, sample_point, world_position}
+#import asvgf::frame::{frame, project, sample_point, seen_position}
 #import asvgf::color::is_finite
 #import asvgf::packing::pack_motion
 
@@ -31,7 +31,7 @@ fn host_motion(pixel: vec2<i32>, depth: f32) -> HostMotion {
 #else
     // A point that does not move in depth but by the camera's motion.
     let point = sample_point(frame.camera, vec2<f32>(pixel));
-    let before = project(frame.previous, world_position(frame.camera, point, depth)).z;
+    let before = project(frame.previous, seen_position(frame.camera, point, depth)).z;
 #endif
     let placed = known && before > 0.0;
     return HostMotion(pack_motion(select(NOWHERE, m, placed), select(0.0, before, placed)), known);

@@ -1,7 +1,7 @@
 #define_import_path asvgf::material
 
 #import asvgf::scene::{load_material, geometry_word, TWO_SIDED_EMITTER, UNLIT}
-#import asvgf::surface::{Visible, Triangle, at, within_edges, geometric_normal, shading_normal, is_front}
+#import asvgf::surface::{Visible, Triangle, at, within_edges, geometric_normal, shading_normal, is_front, rounding_error, plane_margin}
 #import asvgf::color::luminance
 #import asvgf::packing::round_to_f16
 #ifdef TEXTURES
@@ -16,6 +16,8 @@ const PI: f32 = 3.14159265358979;
 // A point that light meets, with all that its scattering depends on.
 struct Surface {
     position: vec3<f32>,
+    // How far from it along `geometric` a ray may start.
+    margin: f32,
     geometric: vec3<f32>,
     normal: vec3<f32>,
     // Unit vector towards where the ray came from.
@@ -80,8 +82,10 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
         base = vec3(0.0);
     }
     var s: Surface;
-    s.position = at(t, within_edges(weights));
+    let error = rounding_error(t, v);
+    s.position = at(t, within_edges(t, weights, error));
     s.geometric = geometric_normal(t, ray_direction);
+    s.margin = plane_margin(t, s.geometric, error);
     s.normal = shading_normal(v, weights, s.geometric);
     s.view = -normalize(ray_direction);
     s.emission = emission;

@@ -1,11 +1,11 @@
 #define_import_path asvgf::reproject
 
-#import asvgf::frame::{frame, world_position, sample_point, inside, scale_at}
+#import asvgf::frame::{frame, seen_position, sample_point, inside, scale_at}
 #import asvgf::packing::unpack_normal
 
 // A point of this frame as it was in the previous frame.
 struct Origin {
-    // Where it was, in world space, and its normal.
+    // Where it was, from this frame's eye, and its normal.
     position: vec3<f32>,
     normal: vec3<f32>,
     object: u32,
@@ -24,7 +24,7 @@ fn same_surface(origin: Origin, tap: vec2<i32>, guide: vec2<u32>, object: u32) -
     }
     let normal = unpack_normal(guide.x);
     let offset = origin.position
-        - world_position(frame.previous, sample_point(frame.previous, vec2<f32>(tap)), depth);
+        - seen_position(frame.previous, sample_point(frame.previous, vec2<f32>(tap)), depth);
     let scale = scale_at(frame.previous, depth);
     return abs(dot(normal, offset)) <= 0.01 * scale
         && dot(offset, offset) <= 0.0025 * scale * scale
@@ -33,5 +33,5 @@ fn same_surface(origin: Origin, tap: vec2<i32>, guide: vec2<u32>, object: u32) -
 
 fn origin_of(pixel: vec2<f32>, motion: vec3<f32>, normal: vec3<f32>, object: u32) -> Origin {
     let point = sample_point(frame.camera, pixel) + motion.xy;
-    return Origin(world_position(frame.previous, point, motion.z), normal, object);
+    return Origin(seen_position(frame.previous, point, motion.z), normal, object);
 }

@@ -208,7 +208,7 @@ fn transform_normal(inverse: Placement, n: vec3<f32>) -> vec3<f32> {
 }
 
 fn instance_record(instance: u32, part: u32) -> Placement {
-    let first = scene.instances + instance * 9u + part * 3u;
+    let first = scene.instances + instance * 10u + part * 3u;
     return Placement(
         bitcast<vec4<f32>>(geometry_word(first)),
         bitcast<vec4<f32>>(geometry_word(first + 1u)),
@@ -233,12 +233,17 @@ fn previous_object_to_world(instance: u32) -> Placement {
 
 // Grid of the boxes of the instance's tree: where it begins, and its step.
 fn instance_grid(instance: u32) -> mat2x3<f32> {
-    let first = scene.instances + instance * 9u + 6u;
+    let first = scene.instances + instance * 10u + 6u;
     return mat2x3(bitcast<vec3<f32>>(geometry_word(first).xyz), bitcast<vec3<f32>>(geometry_word(first + 1u).xyz));
 }
 
 // Root node of the mesh's tree; the instance's first number in the visibility buffer; its first light; its mesh's first row
 // of the lookup table, doubled, plus 1 where the placement mirrors.
 fn instance_numbers(instance: u32) -> vec4<u32> {
-    return geometry_word(scene.instances + instance * 9u + 8u);
+    return geometry_word(scene.instances + instance * 10u + 8u);
+}
+
+// How far rounding may shift a point along each axis of the world on its way into the instance's space.
+fn instance_error(instance: u32) -> vec3<f32> {
+    return bitcast<vec3<f32>>(geometry_word(scene.instances + instance * 10u + 9u).xyz);
 }

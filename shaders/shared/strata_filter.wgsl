@@ -1,6 +1,6 @@
 #define_import_path asvgf::strata_filter
 
-#import asvgf::frame::{frame, world_position, sample_point, scale_at}
+#import asvgf::frame::{frame, seen_position, sample_point, scale_at}
 #import asvgf::packing::unpack_normal
 #import asvgf::edge_stop::falloff
 #import asvgf::strata::sample_pixel
@@ -15,7 +15,7 @@ struct Site {
 fn site(record: vec4<u32>, stratum: vec2<i32>) -> Site {
     let depth = bitcast<f32>(record.w);
     let point = sample_point(frame.camera, vec2<f32>(sample_pixel(record, stratum)));
-    return Site(world_position(frame.camera, point, depth), unpack_normal(record.z), depth);
+    return Site(seen_position(frame.camera, point, depth), unpack_normal(record.z), depth);
 }
 
 // Exponent of the geometric weight between strata, and between a pixel and a stratum: distance from the plane in

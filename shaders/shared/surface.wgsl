@@ -1,6 +1,6 @@
 #define_import_path asvgf::surface
 
-#import asvgf::scene::{scene, geometry_word, attributes, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, NO_TRIANGLE}
+#import asvgf::scene::{scene, geometry_word, attributes, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, instance_error, NO_TRIANGLE}
 #import asvgf::packing::unpack_octahedral
 
 // A point of the scene as the visibility buffer names it.
@@ -97,13 +97,6 @@ fn at(t: Triangle, weights: vec2<f32>) -> vec3<f32> {
     return t.a + weights.x * (t.b - t.a) + weights.y * (t.c - t.a);
 }
 
-// The nearest weights that are within a triangle by 2 millionths of its size, some ten steps of its coordinates. A ray that meets
-// an edge within rounding may be beyond the neighbour's plane, and what leaves from there has left a closed room.
-fn within_edges(weights: vec2<f32>) -> vec2<f32> {
-    let inner = max(weights, vec2(2e-6));
-    return inner * min(1.0, (1.0 - 2e-6) / (inner.x + inner.y));
-}
-
 // Unit normal of the side from which `direction` arrives; opposes the direction for a degenerate triangle.
 fn geometric_normal(t: Triangle, direction: vec3<f32>) -> vec3<f32> {
     let n = cross(t.b - t.a, t.c - t.a);
@@ -152,10 +145,42 @@ fn shading_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<
 #endif
 }
 
-// Moves a ray's origin off its surface by a few ulp, in integers, so that it works at every scale
-// (Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems 2019, ch. 6).
-fn offset_origin(p: vec3<f32>, n: vec3<f32>) -> vec3<f32> {
-    let steps = vec3<i32>(256.0 * n);
-    let moved = bitcast<vec3<f32>>(bitcast<vec3<i32>>(p) + select(steps, -steps, p < vec3(0.0)));
-    return select(moved, p + n * (1.0 / 65536.0), abs(p) < vec3(1.0 / 32.0));
+// 2⁻²¹: eight half steps of f32. Two would do for all that was tried, but for copies of a surface that lie 10⁻⁷ beside it.
+const ROUNDING: f32 = 4.76837158203125e-7;
+
+// How far points of a triangle, and intersections with it, may be off along each axis: by some steps of the largest coordinate that goes into
+// them. A bound on the errors of the formulas, from the triangle alone (compare Pharr, Jakob and Humphreys, "Physically Based Rendering",
+// 4th ed. 2023, ch. 6.8).
+fn rounding_error(t: Triangle, v: Visible) -> vec3<f32> {
+    let error = ROUNDING * max(max(abs(t.a), abs(t.b)), abs(t.c));
+#ifdef INSTANCED
+    // The ray is rounded once more on its way into the instance's space.
+    return error + instance_error(v.instance);
+#else
+    return error;
+#endif
+}
+
+// How far beside its triangle a ray has to start along the normal so that rounding does not let it meet the triangle's plane. An error
+// counts by how far the normal points along its axis: a floor at height 0 has none, however wide it is.
+fn plane_margin(t: Triangle, normal: vec3<f32>, error: vec3<f32>) -> f32 {
+    let edge_b = t.b - t.a;
+    let edge_c = t.c - t.a;
+    let area_normal = cross(edge_b, edge_c);
+    // 1/sin of the angle at `a`: so much of a step do products of edges lose where they nearly cancel. No more than 16, for needles.
+    let thinness = length(edge_b) * length(edge_c) * inverseSqrt(max(dot(area_normal, area_normal), 1e-37));
+    return dot(abs(normal), error) * clamp(thinness, 1.0, 16.0);
+}
+
+// The nearest weights that are within a triangle by the error of its points, and by 2 millionths of its size at least. A ray that meets an
+// edge within rounding may be beyond the neighbour's plane, and what leaves from there has left a closed room.
+fn within_edges(t: Triangle, weights: vec2<f32>, error: vec3<f32>) -> vec2<f32> {
+    let edge_b = t.b - t.a;
+    let edge_c = t.c - t.a;
+    let area_normal = cross(edge_b, edge_c);
+    // A corner's weight falls from 1 to 0 over its height, which is the doubled area over the opposite edge.
+    let per_error = vec3(distance(t.b, t.c), length(edge_c), length(edge_b)) * inverseSqrt(max(dot(area_normal, area_normal), 1e-37));
+    let least = clamp(per_error * max(max(error.x, error.y), error.z), vec3(2e-6), vec3(0.25));
+    let inner = max(weights, least.yz);
+    return inner * min(1.0, (1.0 - least.x) / (inner.x + inner.y));
 }

@@ -1,6 +1,6 @@
 //! One frame's constants, as shaders/shared/frame.wgsl reads them.
 
-use crate::camera::CameraUniform;
+use crate::camera::{CameraUniform, PlacedCamera};
 use crate::plan::Grid;
 use crate::settings::{LONGEST_HISTORY, Settings, Stops};
 use bytemuck::{Pod, Zeroable};
@@ -47,8 +47,10 @@ pub(crate) struct FrameUniform {
 /// What differs from frame to frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Moment {
-    pub camera: CameraUniform,
-    pub previous: CameraUniform,
+    pub camera: PlacedCamera,
+    pub previous: PlacedCamera,
+    /// Where in the world the coordinates of the scene, or of the host, count from.
+    pub origin: [f64; 3],
     pub index: u32,
     pub continued: bool,
     /// Pixels of each direction that share a texel of the host's λ.
@@ -76,8 +78,8 @@ impl FrameUniform {
         Self {
             size,
             strata: Grid::Strata.extent(size),
-            camera: moment.camera,
-            previous: moment.previous,
+            camera: moment.camera.uniform(moment.origin, &moment.camera),
+            previous: moment.previous.uniform(moment.origin, &moment.camera),
             index: moment.index,
             seed,
             continued: u32::from(moment.continued),

@@ -102,7 +102,7 @@ impl Denoiser {
             let reason = "needs a scene: choose Automatic, Reshade, Statistics, Pairs, Lambda or Off for your own renderer's frames";
             return Err(Error::GradientSource { asked: Gradient::BlinnPhong, reason });
         }
-        let camera = surfaces.camera.uniform(self.size)?;
+        let camera = surfaces.camera.placed(self.size)?;
         let (diagnostics, views) = (self.counters.is_some(), self.textures.keeps());
         let mut traits = HostTraits { diagnostics, views, ..Default::default() };
         views::surfaces(&mut traits, surfaces, self.size)?;
@@ -125,7 +125,8 @@ impl Denoiser {
         let plan = self.adapt(all(changes));
         let previous = last.map_or(camera, |l| l.camera);
         let converges = plan.converges();
-        let moment = Moment { camera, previous, index, continued: last.is_some(), lambda_block: 1, converges };
+        let origin = surfaces.camera.origin();
+        let moment = Moment { camera, previous, origin, index, continued: last.is_some(), lambda_block: 1, converges };
         let steps = &plan.steps[..plan.surface_steps()];
         self.compile(steps, Traversal::default())?;
         self.abandon();

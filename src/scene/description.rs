@@ -7,6 +7,9 @@
 /// A column-major 4×4 matrix: `m[column][row]`, multiplying column vectors from the left.
 pub type Matrix = [[f32; 4]; 4];
 
+/// The same in double precision. Thousands of kilometres from the origin it still places to a micrometre.
+pub type WorldMatrix = [[f64; 4]; 4];
+
 /// The identity [`Matrix`].
 pub const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
@@ -348,8 +351,8 @@ pub enum Interpolation {
 /// The moving parts of a [`Scene`] at one moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// World matrix of each node.
-    pub world: Vec<Matrix>,
+    /// World matrix of each node. In double precision: products of large and small offsets keep the small ones.
+    pub world: Vec<WorldMatrix>,
     /// Factor on the emission of each material, per colour channel.
     pub emission: Vec<[f32; 3]>,
     /// Factor on the intensity of each light, likewise.

@@ -1,10 +1,11 @@
 //! Gathers meshes into trees and into the rows of the visibility lookup table.
 
 use super::bvh::{self, Tree};
+use super::centre;
 use super::folded::Texel;
-use super::{Alpha, Material, Mesh, Scene};
+use super::{Alpha, Material, Mesh, Scene, WorldMatrix};
 use crate::plan::Traits;
-use glam::{Mat4, Vec2, Vec3};
+use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 use std::collections::BTreeMap;
 
 /// A static mesh that is used several times is still copied into the static geometry, where it costs no second level of
@@ -15,6 +16,8 @@ const COPIED_TRIANGLES: usize = 4096;
 pub(super) struct Group {
     /// The nodes that place it, or none for the static geometry, which is in world space already.
     pub nodes: Vec<usize>,
+    /// Where in that space the corners count from.
+    pub centre: DVec3,
     pub faces: Vec<Face>,
 }
 
@@ -24,8 +27,8 @@ pub(super) struct Face {
     pub mesh: usize,
     pub triangle: usize,
     pub corners: [Vec3; 3],
-    /// The placement that was applied to the corners, and that the normals follow.
-    placement: Mat4,
+    /// The linear map that was applied to the corners, and that the normals follow.
+    placement: DMat3,
 }
 
 impl Face {
@@ -35,9 +38,9 @@ impl Face {
     }
 }
 
-/// Sorts the scene's meshes into groups: all that stands still first (in world space, where its nodes are `world`), then
+/// Sorts the scene's meshes into groups: all that stands still first (in world space, where its nodes are `world`, relative to `centre`), then
 /// one group for each mesh that moves or repeats.
-pub(super) fn groups(scene: &Scene, world: &[super::Matrix]) -> Vec<Group> {
+pub(super) fn groups(scene: &Scene, world: &[WorldMatrix], centre: DVec3) -> Vec<Group> {
     let moves = scene.animated_nodes();
     let mut uses: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (node, description) in scene.nodes.iter().enumerate() {
@@ -45,17 +48,19 @@ pub(super) fn groups(scene: &Scene, world: &[super::Matrix]) -> Vec<Group> {
             uses.entry(mesh).or_default().push(node);
         }
     }
-    let mut fixed = Group { nodes: Vec::new(), faces: Vec::new() };
+    let mut fixed = Group { nodes: Vec::new(), centre, faces: Vec::new() };
     let mut placed = Vec::new();
     for (mesh, nodes) in uses {
         let description = &scene.meshes[mesh];
         let copied = nodes.len() == 1 || nodes.len() * description.triangles.len() <= COPIED_TRIANGLES;
         let (still, moving): (Vec<_>, Vec<_>) = nodes.into_iter().partition(|&n| copied && !moves[n]);
         for node in still {
-            fixed.faces.extend(faces(description, mesh, Mat4::from_cols_array_2d(&world[node])));
+            fixed.faces.extend(faces(description, mesh, DMat4::from_cols_array_2d(&world[node]), centre));
         }
         if !moving.is_empty() && !description.triangles.is_empty() {
-            placed.push(Group { nodes: moving, faces: faces(description, mesh, Mat4::IDENTITY).collect() });
+            let centre = own_centre(description);
+            let faces = faces(description, mesh, DMat4::IDENTITY, centre).collect();
+            placed.push(Group { nodes: moving, centre, faces });
         }
     }
     if !fixed.faces.is_empty() || placed.is_empty() {
@@ -64,10 +69,21 @@ pub(super) fn groups(scene: &Scene, world: &[super::Matrix]) -> Vec<Group> {
     placed
 }
 
-fn faces(mesh: &Mesh, index: usize, placement: Mat4) -> impl Iterator<Item = Face> {
+fn position(mesh: &Mesh, vertex: u32) -> DVec3 {
+    mesh.positions[vertex as usize].map(f64::from).into()
+}
+
+/// The centre of a mesh in its own space.
+fn own_centre(mesh: &Mesh) -> DVec3 {
+    let corners = mesh.triangles.iter().flatten().map(|&vertex| position(mesh, vertex));
+    centre::bounds(corners).map_or(DVec3::ZERO, centre::centre)
+}
+
+fn faces(mesh: &Mesh, index: usize, world: DMat4, centre: DVec3) -> impl Iterator<Item = Face> {
+    let placement = DMat3::from_mat4(world);
     let mirrored = placement.determinant() < 0.0;
     mesh.triangles.iter().enumerate().map(move |(triangle, corners)| {
-        let [a, b, c] = corners.map(|v| placement.transform_point3(mesh.positions[v as usize].into()));
+        let [a, b, c] = corners.map(|v| (world.transform_point3(position(mesh, v)) - centre).as_vec3());
         // A mirroring placement turns the winding over; turned back here, the front stays the front.
         let corners = if mirrored { [a, c, b] } else { [a, b, c] };
         Face { mesh: index, triangle, corners, placement }
@@ -159,7 +175,7 @@ impl Geometry {
         let corners = if face.placement.determinant() < 0.0 { [a, c, b] } else { [a, b, c] };
         if self.layout.normals {
             // Normals go with the inverse's transpose.
-            let map = glam::Mat3::from_mat4(face.placement).inverse().transpose();
+            let map = face.placement.inverse().transpose().as_mat3();
             for corner in corners {
                 let normal = mesh.normals.get(corner as usize).map_or(Vec3::ZERO, |&n| map * Vec3::from(n));
                 self.attributes.push(normal.try_normalize().map_or(0, pack_octahedral));

@@ -2,18 +2,21 @@
 
 use super::Pose;
 use super::bvh::{self, Quantization};
+use super::centre::relative;
 use super::folded::{self, Texel};
-use glam::{Mat4, Vec3, Vec4};
+use glam::{DMat4, DVec3, Mat4, Vec3, Vec4};
 
 /// Texels of a [`bvh::Node`] and of an instance's record, as in shaders/shared/scene.wgsl.
 pub(super) const NODE_TEXELS: usize = 2;
-const RECORD_TEXELS: usize = 9;
+const RECORD_TEXELS: usize = 10;
 
 /// A tree placed in the world.
 #[derive(Debug)]
 pub(super) struct Instance {
     /// The node that places it; `None` for the static geometry, which is in world space already.
     pub node: Option<usize>,
+    /// Where in the node's space the tree's coordinates count from.
+    pub centre: DVec3,
     pub root: u32,
     pub first_row: u32,
     pub row_count: u32,
@@ -25,9 +28,9 @@ pub(super) struct Instance {
 }
 
 impl Instance {
-    /// Where it stands in a pose.
-    pub fn placement(&self, pose: &Pose) -> Mat4 {
-        self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]))
+    /// Where it stands in a pose, relative to the scene's centre.
+    pub fn placement(&self, pose: &Pose, centre: DVec3) -> Mat4 {
+        self.node.map_or(Mat4::IDENTITY, |n| relative(&pose.world[n], self.centre, centre))
     }
 }
 
@@ -49,28 +52,30 @@ pub(super) struct Placed {
     pub grid: Quantization,
 }
 
-/// The top level and the instances' records in a pose.
-pub(super) fn place(instances: &[Instance], pose: &Pose, first_node: u32) -> Placed {
-    let boxes: Vec<_> = instances.iter().map(|i| transform_box(i.placement(pose), i.bounds)).collect();
+/// The top level and the instances' records in a pose, relative to the scene's centre.
+pub(super) fn place(instances: &[Instance], pose: &Pose, centre: DVec3, first_node: u32) -> Placed {
+    let boxes: Vec<_> = instances.iter().map(|i| transform_box(i.placement(pose, centre), i.bounds)).collect();
     let top = bvh::over_instances(&boxes, first_node);
     let mut texels = folded::texels(&top.nodes).to_vec();
     // As many nodes as any tree over these instances can have, so that the records stay where they are.
     texels.resize(top_level_nodes(instances.len()) * NODE_TEXELS, Texel::default());
-    for instance in instances {
-        let now = instance.placement(pose);
+    for (instance, bounds) in instances.iter().zip(&boxes) {
+        let now = instance.placement(pose, centre);
+        let back = inverse(now);
         let mirrored = u32::from(now.determinant() < 0.0);
         texels.extend(rows(now));
-        texels.extend(rows(inverse(now)));
+        texels.extend(rows(back));
         texels.push(padded(instance.grid.base));
         texels.push(padded(instance.grid.step));
         texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
+        texels.push(padded(rounding(now, back, *bounds)));
     }
     Placed { texels, depth: top.depth, grid: top.grid }
 }
 
 /// The placements alone, as a later frame reads where instances were.
-pub(super) fn rows_of(instances: &[Instance], pose: &Pose) -> Vec<Texel> {
-    instances.iter().flat_map(|instance| rows(instance.placement(pose))).collect()
+pub(super) fn rows_of(instances: &[Instance], pose: &Pose, centre: DVec3) -> Vec<Texel> {
+    instances.iter().flat_map(|instance| rows(instance.placement(pose, centre))).collect()
 }
 
 fn padded(v: [f32; 3]) -> Texel {
@@ -86,6 +91,19 @@ fn rows(m: Mat4) -> [Texel; 3] {
 fn inverse(m: Mat4) -> Mat4 {
     let m = m.as_dmat4();
     if m.determinant() == 0.0 { Mat4::ZERO } else { m.inverse().as_mat4() }
+}
+
+/// How far f32 may shift a point of a box along each axis on its way into an instance's space: four roundings of the terms of each sum, seen
+/// from the world again.
+fn rounding(now: Mat4, back: Mat4, [low, high]: [[f32; 3]; 2]) -> [f32; 3] {
+    if back == Mat4::IDENTITY {
+        return [0.0; 3];
+    }
+    let (now, back) = (now.as_dmat4(), back.as_dmat4());
+    let farthest = Vec3::from(low).abs().max(Vec3::from(high).abs()).as_dvec3();
+    let terms = |m: DMat4, v: DVec3| m.x_axis.abs() * v.x + m.y_axis.abs() * v.y + m.z_axis.abs() * v.z;
+    let inside = terms(back, farthest) + back.w_axis.abs();
+    (terms(now, inside.truncate()).truncate() * 4.0 * f64::from(f32::EPSILON / 2.0)).as_vec3().to_array()
 }
 
 /// A box around a box after a placement.

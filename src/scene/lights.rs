@@ -4,7 +4,7 @@
 //! probability while it moves, dims or is switched off: both follow from the scene at rest with every light at its
 //! nominal strength, and momentary strengths only enter the radiance.
 
-use super::{Light, LightKind, Material, Matrix, Pose};
+use super::{Light, LightKind, Material, Pose};
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3};
 
@@ -68,10 +68,9 @@ pub(crate) fn luminance(c: [f32; 3]) -> f64 {
     0.2126 * f64::from(c[0]) + 0.7152 * f64::from(c[1]) + 0.0722 * f64::from(c[2])
 }
 
-/// A light without area where its node stands, `factor` times as strong as described.
-pub(crate) fn punctual(light: &Light, world: &Matrix, factor: [f32; 3]) -> GpuLight {
-    let world = Mat4::from_cols_array_2d(world);
-    let axis = world.transform_vector3(Vec3::NEG_Z).normalize_or(Vec3::NEG_Z);
+/// A light without area where its node's placement puts it, `factor` times as strong as described.
+pub(crate) fn punctual(light: &Light, placement: Mat4, factor: [f32; 3]) -> GpuLight {
+    let axis = placement.transform_vector3(Vec3::NEG_Z).normalize_or(Vec3::NEG_Z);
     // KHR_lights_punctual: intensity · saturate(cos·scale + offset)².
     let (kind, scale, offset) = match light.kind {
         LightKind::Directional => (DIRECTIONAL, 0.0, 1.0),
@@ -83,7 +82,7 @@ pub(crate) fn punctual(light: &Light, world: &Matrix, factor: [f32; 3]) -> GpuLi
     };
     GpuLight {
         kind,
-        position: world.w_axis.truncate().to_array(),
+        position: placement.w_axis.truncate().to_array(),
         axis: axis.to_array(),
         intensity: [0, 1, 2].map(|c| light.intensity[c] * factor[c]),
         // Beyond 10¹⁸ its fourth power would overflow; there it never fades.
@@ -122,9 +121,9 @@ pub(crate) fn assign_probabilities(lights: &mut [GpuLight], powers: &[f64]) {
 /// The triangles of one instance that share an emitting material, as the analytic gradient sees them.
 #[derive(Debug, Default)]
 pub(crate) struct Emitter {
-    pub node: Option<usize>,
+    pub instance: usize,
     pub material: usize,
-    /// Σ area · centre and Σ area · normal, in the space of the node.
+    /// Σ area · centre and Σ area · normal, in the space of the instance's tree.
     pub centre: Vec3,
     pub normal: Vec3,
     pub area: f32,
@@ -139,9 +138,8 @@ impl Emitter {
     }
 
     /// A flat emitter is a cosine lobe of radiance times area; one that is closed shows a quarter of its area from
-    /// everywhere (Cauchy), like a point light.
-    pub fn analytic(&self, materials: &[Material], pose: &Pose) -> AnalyticLight {
-        let placement = self.node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
+    /// everywhere (Cauchy), like a point light. `placement` is the instance's.
+    pub fn analytic(&self, materials: &[Material], pose: &Pose, placement: Mat4) -> AnalyticLight {
         let scale = placement.determinant().abs().powf(2.0 / 3.0);
         let (emissive, factor) = (materials[self.material].emissive, pose.emission[self.material]);
         let flat = self.normal.length() > 0.5 * self.area;

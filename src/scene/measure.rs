@@ -1,6 +1,6 @@
 //! Sizes of a scene in world space.
 
-use glam::{DMat4, DVec3, Mat4};
+use glam::{DMat4, DVec3};
 
 use crate::scene::description::{Mesh, Pose, Scene};
 
@@ -23,20 +23,20 @@ impl Scene {
     }
 
     /// Smallest and largest corner of the box around all placed triangles; `None` where there is no triangle.
-    pub fn bounds(&self, pose: &Pose) -> Option<[[f32; 3]; 2]> {
+    pub fn bounds(&self, pose: &Pose) -> Option<[[f64; 3]; 2]> {
         let mut bounds: Option<[DVec3; 2]> = None;
         self.for_each_triangle(pose, |corners| {
             let [low, high] = bounds.unwrap_or([corners[0]; 2]);
             bounds = Some(corners.iter().fold([low, high], |[low, high], &corner| [low.min(corner), high.max(corner)]));
         });
-        bounds.map(|corners| corners.map(|corner| corner.as_vec3().to_array()))
+        bounds.map(|corners| corners.map(|corner| corner.to_array()))
     }
 
     /// Calls `visit` with the world-space corners of every placed triangle. Indices that lead nowhere are passed over.
     fn for_each_triangle(&self, pose: &Pose, mut visit: impl FnMut([DVec3; 3])) {
         for (node, world) in self.nodes.iter().zip(&pose.world) {
             // Double precision: the sum of many small areas, and products of large coordinates.
-            let world: DMat4 = Mat4::from_cols_array_2d(world).as_dmat4();
+            let world = DMat4::from_cols_array_2d(world);
             for mesh in node.meshes.iter().filter_map(|&mesh| self.meshes.get(mesh)) {
                 let corner = |index: u32| Some(world.transform_point3(position(mesh, index)?));
                 for &[a, b, c] in &mesh.triangles {

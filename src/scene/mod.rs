@@ -3,6 +3,7 @@
 mod alias;
 mod buffers;
 mod bvh;
+mod centre;
 mod description;
 mod facets;
 mod folded;

@@ -1,6 +1,6 @@
 //! Where everything is at one moment: animation curves and the node hierarchy.
 
-use glam::{Mat4, Quat, Vec3, Vec4};
+use glam::{DMat4, DQuat, DVec3, DVec4, Mat4};
 
 use crate::scene::description::{Animation, Channel, Interpolation, Matrix, Pose, Scene, Target, Transform};
 
@@ -8,9 +8,9 @@ use crate::scene::description::{Animation, Channel, Interpolation, Matrix, Pose,
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraView {
     /// Position, in metres.
-    pub eye: [f32; 3],
+    pub eye: [f64; 3],
     /// A point one metre ahead of the eye.
-    pub target: [f32; 3],
+    pub target: [f64; 3],
     /// Unit vector that is up in the picture, perpendicular to the view direction.
     pub up: [f32; 3],
     /// Vertical field of view in radians, 0 < fov < π.
@@ -36,20 +36,23 @@ impl Scene {
                     Target::Rotation(node) => set(&mut locals, node, |local| local.rotation = unit(value)),
                     Target::Scale(node) => set(&mut locals, node, |local| local.scale = value.truncate()),
                     Target::Emission(material) => {
-                        set(&mut emission, material, |factor| *factor = [value.x.max(0.0); 3])
+                        set(&mut emission, material, |factor| *factor = [value.x.max(0.0) as f32; 3])
                     }
-                    Target::Intensity(light) => set(&mut intensity, light, |factor| *factor = [value.x.max(0.0); 3]),
+                    Target::Intensity(light) => {
+                        set(&mut intensity, light, |factor| *factor = [value.x.max(0.0) as f32; 3])
+                    }
                 }
             }
         }
 
-        let mut world: Vec<Mat4> = Vec::with_capacity(self.nodes.len());
+        // In f32, a child of a parent at 500 km would move in steps of 3 cm.
+        let mut world: Vec<DMat4> = Vec::with_capacity(self.nodes.len());
         for (node, local) in self.nodes.iter().zip(&locals) {
             // Parents come first, so that one pass suffices.
-            let parent = node.parent.and_then(|parent| world.get(parent)).copied().unwrap_or(Mat4::IDENTITY);
+            let parent = node.parent.and_then(|parent| world.get(parent)).copied().unwrap_or(DMat4::IDENTITY);
             world.push(parent * local.matrix());
         }
-        Pose { world: world.iter().map(Mat4::to_cols_array_2d).collect(), emission, intensity }
+        Pose { world: world.iter().map(DMat4::to_cols_array_2d).collect(), emission, intensity }
     }
 
     /// Last key time of an animation in seconds: the time after which [`Scene::pose`] repeats. 0 for `None`, for an
@@ -89,7 +92,7 @@ impl Scene {
     /// direction (a scale of zero).
     pub fn camera_view(&self, pose: &Pose, node: usize) -> Option<CameraView> {
         let camera = self.cameras.get(self.nodes.get(node)?.camera?)?;
-        let world = Mat4::from_cols_array_2d(pose.world.get(node)?);
+        let world = DMat4::from_cols_array_2d(pose.world.get(node)?);
         let eye = world.w_axis.truncate();
         let forward = (-world.z_axis.truncate()).try_normalize()?;
         let up = world.y_axis.truncate();
@@ -97,7 +100,7 @@ impl Scene {
         Some(CameraView {
             eye: eye.to_array(),
             target: (eye + forward).to_array(),
-            up: up.to_array(),
+            up: up.as_vec3().to_array(),
             fov_y: camera.fov_y,
         })
     }
@@ -122,21 +125,21 @@ impl Target {
 
 impl Channel {
     /// Value at `time`, held outside the keys. `None` where keys or values are missing.
-    fn sample(&self, time: f32) -> Option<Vec4> {
+    fn sample(&self, time: f32) -> Option<DVec4> {
         let after = self.times.partition_point(|&key| key <= time);
         let Some(before) = after.checked_sub(1) else { return self.value(0) };
         let (Some(&from), Some(&to)) = (self.times.get(before), self.times.get(after)) else {
             return self.value(before);
         };
-        let span = to - from;
-        let t = if span > 0.0 { (time - from) / span } else { 0.0 };
+        let span = f64::from(to - from);
+        let t = if span > 0.0 { f64::from(time - from) / span } else { 0.0 };
         match self.interpolation {
             Interpolation::Step => self.value(before),
             Interpolation::Linear => {
                 let (a, b) = (self.value(before)?, self.value(after)?);
                 Some(match self.target {
                     // glam's slerp takes the short way round, as glTF asks for.
-                    Target::Rotation(_) => Vec4::from(unit(a).slerp(unit(b), t)),
+                    Target::Rotation(_) => DVec4::from(unit(a).slerp(unit(b), t)),
                     _ => a.lerp(b, t),
                 })
             }
@@ -155,23 +158,23 @@ impl Channel {
     }
 
     /// Value of a key, without its tangents.
-    fn value(&self, key: usize) -> Option<Vec4> {
+    fn value(&self, key: usize) -> Option<DVec4> {
         match self.interpolation {
             Interpolation::CubicSpline => self.key(3 * key + 1),
             Interpolation::Step | Interpolation::Linear => self.key(key),
         }
     }
 
-    fn key(&self, index: usize) -> Option<Vec4> {
-        self.values.get(index).copied().map(Vec4::from)
+    fn key(&self, index: usize) -> Option<DVec4> {
+        self.values.get(index).map(|value| value.map(f64::from).into())
     }
 }
 
 /// A node's own transform while channels are applied to it.
 struct Local {
-    translation: Vec3,
-    rotation: Quat,
-    scale: Vec3,
+    translation: DVec3,
+    rotation: DQuat,
+    scale: DVec3,
     /// Stands for the three above, in a node that cannot be animated.
     fixed: Option<Matrix>,
 }
@@ -180,28 +183,28 @@ impl Local {
     fn new(transform: Transform) -> Self {
         match transform {
             Transform::Trs { translation, rotation, scale } => Self {
-                translation: translation.into(),
-                rotation: unit(rotation.into()),
-                scale: scale.into(),
+                translation: translation.map(f64::from).into(),
+                rotation: unit(rotation.map(f64::from).into()),
+                scale: scale.map(f64::from).into(),
                 fixed: None,
             },
             Transform::Matrix(matrix) => {
-                Self { translation: Vec3::ZERO, rotation: Quat::IDENTITY, scale: Vec3::ONE, fixed: Some(matrix) }
+                Self { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE, fixed: Some(matrix) }
             }
         }
     }
 
-    fn matrix(&self) -> Mat4 {
+    fn matrix(&self) -> DMat4 {
         match &self.fixed {
-            Some(matrix) => Mat4::from_cols_array_2d(matrix),
-            None => Mat4::from_scale_rotation_translation(self.scale, self.rotation, self.translation),
+            Some(matrix) => Mat4::from_cols_array_2d(matrix).as_dmat4(),
+            None => DMat4::from_scale_rotation_translation(self.scale, self.rotation, self.translation),
         }
     }
 }
 
 /// The rotation nearest to a quaternion of any length; none at all for length zero.
-fn unit(quaternion: Vec4) -> Quat {
-    Quat::from_vec4(quaternion.try_normalize().unwrap_or(Vec4::W))
+fn unit(quaternion: DVec4) -> DQuat {
+    DQuat::from_vec4(quaternion.try_normalize().unwrap_or(DVec4::W))
 }
 
 /// `time` within 0…`duration`, or 0 where nothing repeats.
@@ -213,5 +216,94 @@ fn looped(time: f32, duration: f32) -> f32 {
 fn set<T>(items: &mut [T], index: usize, change: impl FnOnce(&mut T)) {
     if let Some(item) = items.get_mut(index) {
         change(item);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::description::{Node, Perspective};
+
+    const FAR: f64 = 524_288.0;
+
+    fn at(translation: [f32; 3]) -> Transform {
+        Transform::Trs { translation, rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] }
+    }
+
+    /// A turned parent that is far away, and a child with a camera that moves by a millimetre.
+    fn far_family() -> Scene {
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let parent = Transform::Trs {
+            translation: [FAR as f32, 0.0, -FAR as f32],
+            rotation: [0.0, half, 0.0, half],
+            scale: [1.0; 3],
+        };
+        let child = Node { parent: Some(0), transform: at([0.0; 3]), camera: Some(0), ..Default::default() };
+        let channel = Channel {
+            target: Target::Translation(1),
+            interpolation: Interpolation::Linear,
+            times: vec![0.0, 1.0],
+            values: vec![[0.0; 4], [1e-3, 0.0, 0.0, 0.0]],
+        };
+        Scene {
+            nodes: vec![Node { transform: parent, ..Default::default() }, child],
+            cameras: vec![Perspective { fov_y: 0.8 }],
+            animations: vec![Animation { name: "move".into(), channels: vec![channel] }],
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn a_child_of_a_far_parent_moves_in_small_steps() {
+        let scene = far_family();
+        for i in 0..10 {
+            let time = i as f32 / 10.0;
+            let pose = scene.pose(Some(0), time);
+            // A quarter turn about y takes +X to −Z.
+            let [x, y, z, _] = pose.world[1][3];
+            assert!((x - FAR).abs() < 1e-9 && y.abs() < 1e-9, "{x}, {y}");
+            assert!((z + FAR + 1e-3 * f64::from(time)).abs() < 1e-9, "{z} at {time}");
+            let view = scene.camera_view(&pose, 1).unwrap();
+            assert_eq!(view.eye, [x, y, z]);
+            let way = [0, 1, 2].map(|axis| view.target[axis] - view.eye[axis]);
+            assert!((way[0] + 1.0).abs() < 1e-6 && way[2].abs() < 1e-6, "{way:?}");
+        }
+    }
+
+    #[test]
+    fn curves_between_far_keys_do_not_go_in_steps() {
+        let mut scene = far_family();
+        let channel = &mut scene.animations[0].channels[0];
+        channel.target = Target::Translation(0);
+        let keys = [[FAR as f32, 0.0, 0.0, 0.0], [FAR as f32 + 1.0, 0.0, 0.0, 0.0]];
+        for interpolation in [Interpolation::Linear, Interpolation::CubicSpline] {
+            let channel = &mut scene.animations[0].channels[0];
+            channel.interpolation = interpolation;
+            channel.values = match interpolation {
+                Interpolation::CubicSpline => {
+                    let tangent = [1.0, 0.0, 0.0, 0.0];
+                    keys.iter().flat_map(|&key| [tangent, key, tangent]).collect()
+                }
+                _ => keys.to_vec(),
+            };
+            for time in [0.001_f32, 0.3, 0.77] {
+                let x = scene.pose(Some(0), time).world[0][3][0];
+                assert!((x - FAR - f64::from(time)).abs() < 1e-9, "{interpolation:?}: {x} at {time}");
+            }
+        }
+    }
+
+    #[test]
+    fn bounds_of_what_is_far_are_as_narrow_as_near() {
+        let mut scene = far_family();
+        scene.materials.push(Default::default());
+        scene.meshes.push(crate::scene::Mesh {
+            positions: vec![[0.0; 3], [1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0]],
+            triangles: vec![[0, 1, 2]],
+            ..Default::default()
+        });
+        scene.nodes[1].meshes.push(0);
+        let [low, high] = scene.bounds(&scene.pose(None, 0.0)).unwrap();
+        assert!((high[2] - low[2] - 1e-3).abs() < 1e-9 && (high[1] - 1e-3).abs() < 1e-9, "{low:?}, {high:?}");
     }
 }

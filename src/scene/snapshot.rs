@@ -1,6 +1,6 @@
 //! A scene in one pose, as far as paths can tell.
 
-use super::{Matrix, Pose};
+use super::{Pose, WorldMatrix};
 use wgpu::{BindingResource, Buffer};
 
 /// The scene as a denoiser rendered it last, from which it finds out what has moved since. The scene itself knows no last frame, because
@@ -20,7 +20,7 @@ pub(crate) struct Snapshot {
 /// The part of a pose that paths can see. A camera that moves changes nothing here.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Visible {
-    placed: Vec<Matrix>,
+    placed: Vec<WorldMatrix>,
     emission: Vec<[f32; 3]>,
     intensity: Vec<[f32; 3]>,
 }

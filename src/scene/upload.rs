@@ -2,6 +2,7 @@
 
 use super::buffers::{buffer, check_size, check_texels, storage};
 use super::bvh::Quantization;
+use super::centre::{self, relative};
 use super::facets::{self, Facet};
 use super::folded::{self, Texel};
 use super::geometry::{self, Geometry};
@@ -11,10 +12,10 @@ use super::sky::Sky;
 use super::snapshot::{Snapshot, Visible};
 use super::texels::{self, Images, Place};
 use super::textures;
-use super::{Light, Material, Matrix, Pose, Scene, SceneError, materials};
+use super::{Light, Material, Pose, Scene, SceneError, materials};
 use crate::plan::{Traits, Traversal};
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3};
+use glam::{DVec3, Mat4};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -33,12 +34,15 @@ const ROW_TEXELS: usize = 3;
 /// A [`Scene`] on the GPU: geometry and its trees once; placements, materials and lights as they are now.
 ///
 /// Each mesh is stored once. What stands still is gathered into one tree in world space; meshes that move or repeat get
-/// trees of their own under a second level, which is rebuilt when something moved.
+/// trees of their own under a second level, which is rebuilt when something moved. Coordinates count from a centre near the
+/// scene's middle, so that a scene far from the origin looks as it does near.
 #[derive(Debug)]
 pub struct GpuScene {
     id: u64,
     traits: Traits,
     stack: u32,
+    /// Where in the world coordinates on the GPU count from. It stays, as the last frame's coordinates count from it too.
+    centre: DVec3,
     pose: Pose,
     /// The pose as paths see it.
     snapshot: Arc<Snapshot>,
@@ -115,7 +119,9 @@ impl GpuScene {
     pub fn new(device: &Device, queue: &Queue, scene: &Scene) -> Result<Self, SceneError> {
         scene.validate()?;
         let pose = scene.pose(None, 0.0);
-        let groups = geometry::groups(scene, &pose.world);
+        let bounds = scene.bounds(&pose).map(|corners| corners.map(DVec3::from));
+        let centre = bounds.map_or(DVec3::ZERO, centre::centre);
+        let groups = geometry::groups(scene, &pose.world, centre);
         let instanced = groups.len() > 1 || !groups[0].nodes.is_empty();
         let instance_count: usize = groups.iter().map(|g| g.nodes.len().max(1)).sum();
         // The lookup table comes first, then the top level and the records, in rows of their own as they are replaced when
@@ -138,7 +144,7 @@ impl GpuScene {
             let nodes: Vec<Option<usize>> =
                 if group.nodes.is_empty() { vec![None] } else { group.nodes.iter().copied().map(Some).collect() };
             for node in nodes {
-                let placement = node.map_or(Mat4::IDENTITY, |n| Mat4::from_cols_array_2d(&pose.world[n]));
+                let placement = node.map_or(Mat4::IDENTITY, |n| relative(&pose.world[n], group.centre, centre));
                 let first_light = light_table.len() as u32;
                 for &(row, face) in &built.emitters {
                     let material = scene.meshes[face.mesh].material;
@@ -153,7 +159,7 @@ impl GpuScene {
                     let area = 0.5 * f64::from((b - a).cross(c - a).length());
                     powers.push(area * PI * lights::luminance(scene.materials[material].emissive));
                     let emitter = emitters.entry((instance, material)).or_insert_with(|| Emitter {
-                        node,
+                        instance,
                         material,
                         ..Default::default()
                     });
@@ -161,6 +167,7 @@ impl GpuScene {
                 }
                 instances.push(Instance {
                     node,
+                    centre: group.centre,
                     root: built.root,
                     first_row: built.first_row,
                     row_count: group.faces.len() as u32,
@@ -172,8 +179,7 @@ impl GpuScene {
                 next_id += group.faces.len() as u32;
             }
         }
-        let radius =
-            scene.bounds(&pose).map_or(1.0, |[low, high]| f64::from(Vec3::from(low).distance(high.into())) / 2.0);
+        let radius = bounds.map_or(1.0, |[low, high]| low.distance(high) / 2.0);
         let first_punctual = light_table.len();
         let mut punctual = Vec::new();
         for (node, description) in scene.nodes.iter().enumerate() {
@@ -227,7 +233,7 @@ impl GpuScene {
         header.light_count = light_table.len() as u32;
 
         // One slot for the bottom, one for the mark between the levels, one that is written before it is known to be kept.
-        let (placements, depth) = placements(&mut header, instanced, &instances, &pose);
+        let (placements, depth) = placements(&mut header, instanced, &instances, &pose, centre);
         let stack = (geometry.depth + depth + 3).next_multiple_of(4);
         traits.levels = geometry.depth + depth;
         if stack > LARGEST_STACK {
@@ -256,6 +262,7 @@ impl GpuScene {
             id,
             traits,
             stack,
+            centre,
             pose: pose.clone(),
             // Its buffers are replaced below, once the lights have their places.
             snapshot: Arc::new(Snapshot {
@@ -309,7 +316,9 @@ impl GpuScene {
         if lengths(pose) != lengths(&self.pose) {
             return wrong("lengths".into(), "differ from the scene's: make it with `Scene::pose` of the same scene");
         }
-        if let Some(i) = pose.world.iter().position(|m| m.iter().flatten().any(|x| !x.is_finite())) {
+        // What f32 cannot hold is infinite in shaders.
+        let finite = |x: &f64| x.abs() <= f64::from(f32::MAX);
+        if let Some(i) = pose.world.iter().position(|m| !m.iter().flatten().all(finite)) {
             return wrong(format!("world[{i}]"), "is not finite");
         }
         if pose.emission.iter().chain(&pose.intensity).flatten().any(|f| !(f.is_finite() && *f >= 0.0)) {
@@ -321,7 +330,7 @@ impl GpuScene {
             return Ok(());
         }
         if self.traits.instanced && !now.is_placed_as(&before.visible) {
-            let (placements, _) = placements(&mut self.header, true, &self.instances, &self.pose);
+            let (placements, _) = placements(&mut self.header, true, &self.instances, &self.pose, self.centre);
             self.buffers.scene = buffer(device, "scene", bytemuck::bytes_of(&self.header), BufferUsages::UNIFORM);
             let first_row = self.header.root / (folded::WIDTH / NODE_TEXELS) as u32;
             folded::replace(device, encoder, &self.buffers.geometry.0, first_row, &placements);
@@ -358,6 +367,11 @@ impl GpuScene {
     /// The scene as paths see it now.
     pub(crate) fn snapshot(&self) -> &Arc<Snapshot> {
         &self.snapshot
+    }
+
+    /// Where in the world coordinates on the GPU count from.
+    pub(crate) fn centre(&self) -> [f64; 3] {
+        self.centre.to_array()
     }
 
     /// How rays find their triangles in shaders for these traits, the scene's or more.
@@ -402,7 +416,7 @@ impl GpuScene {
         let Some(corners) = &self.few else { return };
         let (mut all, mut owners) = (Vec::new(), Vec::new());
         for (number, instance) in self.instances.iter().enumerate() {
-            let placement = instance.placement(&self.pose);
+            let placement = instance.placement(&self.pose, self.centre);
             for row in instance.first_row..instance.first_row + instance.row_count {
                 all.push(Facet::new(corners[row as usize], placement));
                 owners.push([row, number as u32, 0, 0]);
@@ -418,18 +432,19 @@ impl GpuScene {
 
     /// Puts the lights where they are in this pose, and keeps it for later frames.
     fn take_snapshot(&mut self, device: &Device, visible: Visible) -> Arc<Snapshot> {
-        let rows = instances::rows_of(&self.instances, &self.pose);
+        let rows = instances::rows_of(&self.instances, &self.pose, self.centre);
         let placements = storage(device, "placements", &rows, 3 * size_of::<Texel>());
         Arc::new(Snapshot { scene: self.id, visible, placements, analytic_lights: self.place_lights(device) })
     }
 
     /// Puts the lights where they are in this pose. Returns those of the Blinn–Phong gradient.
     fn place_lights(&mut self, device: &Device) -> Buffer {
-        let mut analytic: Vec<AnalyticLight> =
-            self.emitters.iter().map(|e| e.analytic(&self.materials, &self.pose)).collect();
+        let placement = |instance: usize| self.instances[instance].placement(&self.pose, self.centre);
+        let lamp = |e: &Emitter| e.analytic(&self.materials, &self.pose, placement(e.instance));
+        let mut analytic: Vec<AnalyticLight> = self.emitters.iter().map(lamp).collect();
         for (punctual, entry) in self.punctual.iter().zip(&mut self.light_table[self.first_punctual..]) {
-            let world: &Matrix = &self.pose.world[punctual.node];
-            let placed = lights::punctual(&punctual.light, world, self.pose.intensity[punctual.index]);
+            let placement = relative(&self.pose.world[punctual.node], DVec3::ZERO, self.centre);
+            let placed = lights::punctual(&punctual.light, placement, self.pose.intensity[punctual.index]);
             *entry = GpuLight { alias: entry.alias, threshold: entry.threshold, pmf: entry.pmf, ..placed };
             analytic.push(AnalyticLight::from(placed));
         }
@@ -449,12 +464,18 @@ fn visible(instances: &[Instance], punctual: &[Punctual], pose: &Pose) -> Visibl
 
 /// The top level and the instances' records in a pose, and the top level's depth. Empty where there is one level. The header
 /// gets the grid of the boxes that rays meet first.
-fn placements(header: &mut Header, instanced: bool, instances: &[Instance], pose: &Pose) -> (Vec<Texel>, u32) {
+fn placements(
+    header: &mut Header,
+    instanced: bool,
+    instances: &[Instance],
+    pose: &Pose,
+    centre: DVec3,
+) -> (Vec<Texel>, u32) {
     if !instanced {
         header.set_grid(instances[0].grid);
         return (Vec::new(), 0);
     }
-    let placed = instances::place(instances, pose, header.root);
+    let placed = instances::place(instances, pose, centre, header.root);
     header.set_grid(placed.grid);
     (placed.texels, placed.depth)
 }

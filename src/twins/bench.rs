@@ -79,10 +79,11 @@ impl Bench {
     }
 
     fn uniform(&self) -> FrameUniform {
-        let camera = |c: &Camera| c.uniform(self.size).unwrap_or_else(|e| panic!("{e}"));
+        let camera = |c: &Camera| c.placed(self.size).unwrap_or_else(|e| panic!("{e}"));
         let moment = Moment {
             camera: camera(&self.camera),
             previous: camera(&self.previous),
+            origin: [0.0; 3],
             index: self.index,
             continued: self.continued,
             lambda_block: self.lambda_block,

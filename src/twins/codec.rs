@@ -186,7 +186,7 @@ impl Bench {
 
     /// World position of a pixel's surface.
     pub fn position(&self, x: i32, y: i32, depth: f64) -> V {
-        add(self.camera.eye.map(f64::from), scale(self.ray(x, y), depth))
+        add(self.camera.eye, scale(self.ray(x, y), depth))
     }
 
     pub fn pixels(&self) -> impl Iterator<Item = (i32, i32)> + use<> {
@@ -208,7 +208,7 @@ impl Bench {
             (unit([0.0, 1.0, 0.02]), [0.0, -0.6, 0.0]),
             (unit([-0.7, 0.3, 0.4]), [-0.5, 0.2, -1.0]),
         ];
-        let eye = self.camera.eye.map(f64::from);
+        let eye = self.camera.eye;
         self.pixels()
             .map(|(x, y)| {
                 let which = (x / 5 + y / 4) as usize % 5;

@@ -74,6 +74,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     let everything = plan(&ALL, FilterSettings::default(), Changes::ANY);
     let moving = &[
+        "instance_error",
         "instance_grid",
         "instance_numbers",
         "instance_record",

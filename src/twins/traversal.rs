@@ -7,7 +7,7 @@ use crate::gpu::kernel::used_bindings;
 use crate::passes::Pass;
 use crate::plan::{Feature, Features};
 use crate::scene::{GpuScene, Material, Mesh, Node, Pose, Scene, Transform, builtin};
-use glam::{DMat4, DVec3, Mat4, Vec3A};
+use glam::{DMat4, DVec3, Vec3A};
 use obvhs::{BvhBuildParams, bvh2::Bvh2, bvh2::builder, ray, triangle::Triangle};
 use std::time::Duration;
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -69,7 +69,7 @@ impl Truth {
 fn triangles(scene: &Scene, pose: &Pose) -> Vec<[DVec3; 3]> {
     let mut all = Vec::new();
     for (node, world) in scene.nodes.iter().zip(&pose.world) {
-        let world: DMat4 = Mat4::from_cols_array_2d(world).as_dmat4();
+        let world = DMat4::from_cols_array_2d(world);
         for mesh in node.meshes.iter().map(|&m| &scene.meshes[m]) {
             let at = |i: u32| world.transform_point3(DVec3::from(mesh.positions[i as usize].map(f64::from)));
             all.extend(mesh.triangles.iter().map(|t| t.map(at)));

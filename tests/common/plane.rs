@@ -44,8 +44,8 @@ pub struct Pinhole {
 
 impl Pinhole {
     pub fn new(camera: &Camera, size: [u32; 2]) -> Self {
-        let eye = camera.eye.map(f64::from);
-        let forward = unit(sub(camera.target.map(f64::from), eye));
+        let eye = camera.eye;
+        let forward = unit(sub(camera.target, eye));
         let right = unit(cross(forward, camera.up.map(f64::from)));
         let up = cross(right, forward);
         Self { eye, right, up, forward, half: (f64::from(camera.fov_y) / 2.0).tan(), size: size.map(f64::from) }

@@ -1,5 +1,6 @@
 //! Small scenes by hand.
 
+use asvgf::Camera;
 use asvgf::scene::{Light, LightKind, Material, Mesh, Node, Scene, Transform};
 
 /// A parallelogram whose front looks along u × v.
@@ -37,4 +38,16 @@ pub fn shine(scene: &mut Scene, kind: LightKind, intensity: [f32; 3], range: f32
     let half = std::f32::consts::FRAC_1_SQRT_2;
     let transform = Transform::Trs { translation: from, rotation: [-half, 0.0, 0.0, half], scale: [1.0; 3] };
     scene.nodes.push(Node { light: Some(scene.lights.len() - 1), transform, ..Default::default() });
+}
+
+/// A floor of 2 × 2 that faces +Y and a wall of 2 × 1 on it that faces +Z, their meeting's middle at a place.
+pub fn corner([x, y, z]: [f32; 3]) -> Vec<Mesh> {
+    let floor = quad([x - 1.0, y, z + 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0], 0);
+    let wall = quad([x - 1.0, y, z], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0);
+    vec![floor, wall]
+}
+
+/// The camera that looks at a corner.
+pub fn before_corner([x, y, z]: [f64; 3]) -> Camera {
+    Camera { eye: [x, y + 0.75, z + 2.0], target: [x, y + 0.25, z], fov_y: 0.7, ..Default::default() }
 }

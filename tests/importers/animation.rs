@@ -21,7 +21,7 @@ fn playing(target: Target, interpolation: Interpolation, times: &[f32], values: 
 }
 
 fn x_at(scene: &Scene, time: f32) -> f32 {
-    scene.pose(Some(0), time).world[0][3][0]
+    scene.pose(Some(0), time).world[0][3][0] as f32
 }
 
 #[test]

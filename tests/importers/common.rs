@@ -209,7 +209,8 @@ pub fn assert_error(result: Result<Loaded, SceneError>, file: &str, element: &st
 /// World-space bounds of a scene at rest.
 #[track_caller]
 pub fn bounds(loaded: &Loaded) -> [[f32; 3]; 2] {
-    loaded.scene.bounds(&loaded.scene.pose(None, 0.0)).unwrap()
+    let bounds = loaded.scene.bounds(&loaded.scene.pose(None, 0.0)).unwrap();
+    bounds.map(|corner| corner.map(|x| x as f32))
 }
 
 /// Surface area of a scene at rest.
@@ -218,8 +219,9 @@ pub fn area(loaded: &Loaded) -> f64 {
 }
 
 #[track_caller]
-pub fn assert_close(actual: &[f32], expected: &[f32], tolerance: f32) {
-    let close = actual.len() == expected.len() && actual.iter().zip(expected).all(|(a, b)| (a - b).abs() <= tolerance);
+pub fn assert_close<T: Copy + Into<f64> + std::fmt::Debug>(actual: &[T], expected: &[f32], tolerance: f32) {
+    let near = |a: T, b: f32| (a.into() - f64::from(b)).abs() <= f64::from(tolerance);
+    let close = actual.len() == expected.len() && actual.iter().zip(expected).all(|(&a, &b)| near(a, b));
     assert!(close, "{actual:?} is not {expected:?}");
 }
 

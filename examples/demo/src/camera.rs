@@ -1,7 +1,7 @@
 //! The camera that the mouse moves: around a point, or on foot.
 
 use asvgf::Camera;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
 /// Radians that a drag across the whole height of the picture turns.
@@ -10,7 +10,8 @@ const TURN: f32 = 3.0;
 /// A camera as angles about the point it looks at, +Y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
-    target: Vec3,
+    /// In double precision, so that it moves smoothly far from the origin.
+    target: DVec3,
     /// From +Z towards +X.
     yaw: f32,
     /// Above the horizon.
@@ -21,20 +22,16 @@ pub struct Orbit {
 
 impl Orbit {
     /// Looking where another camera looks, at a point as far away as the scene's centre.
-    pub fn from(camera: &Camera, centre: [f32; 3]) -> Self {
-        let (eye, target) = (Vec3::from(camera.eye), Vec3::from(camera.target));
-        let forward = (target - eye).normalize_or(Vec3::NEG_Z);
+    pub fn from(camera: &Camera, centre: [f64; 3]) -> Self {
+        let (eye, target) = (DVec3::from(camera.eye), DVec3::from(camera.target));
+        let forward = (target - eye).normalize_or(DVec3::NEG_Z);
         // A scene's own camera has a target one metre ahead, whatever it looks at.
-        let distance = (Vec3::from(centre) - eye).dot(forward).max(0.1);
+        let distance = (DVec3::from(centre) - eye).dot(forward).max(0.1);
+        let target = eye + forward * distance;
+        let forward = forward.as_vec3();
         let pitch = (-forward.y).clamp(-1.0, 1.0).asin();
-        Self {
-            target: eye + forward * distance,
-            yaw: (-forward.x).atan2(-forward.z),
-            pitch,
-            distance,
-            fov_y: camera.fov_y,
-        }
-        .level()
+        Self { target, yaw: (-forward.x).atan2(-forward.z), pitch, distance: distance as f32, fov_y: camera.fov_y }
+            .level()
     }
 
     /// Goes around the point; drags are in parts of the picture's height.
@@ -47,13 +44,13 @@ impl Orbit {
         let eye = self.eye();
         // At its own pace: one turns as far as what is seen moves with the pointer.
         *self = Self { yaw: self.yaw + self.fov_y * x, pitch: self.pitch - self.fov_y * y, ..*self }.level();
-        self.target = eye - self.backward() * self.distance;
+        self.target = eye - (self.backward() * self.distance).as_dvec3();
     }
 
     /// Moves sideways and up so that what is at the target follows the pointer.
     pub fn pan(&mut self, [x, y]: [f32; 2]) {
         let height = 2.0 * self.distance * (self.fov_y / 2.0).tan();
-        self.target += height * (y * self.up() - x * self.right());
+        self.target += (height * (y * self.up() - x * self.right())).as_dvec3();
     }
 
     /// Nearer to the target for steps > 0.
@@ -63,7 +60,8 @@ impl Orbit {
 
     /// Walks by parts of the distance to the target: right, up, forward.
     pub fn walk(&mut self, [right, up, forward]: [f32; 3]) {
-        self.target += self.distance * (right * self.right() + up * Vec3::Y - forward * self.backward());
+        let way = right * self.right() + up * Vec3::Y - forward * self.backward();
+        self.target += (self.distance * way).as_dvec3();
     }
 
     /// A quarter of the way around, at once.
@@ -76,8 +74,8 @@ impl Orbit {
         Camera { eye: self.eye().to_array(), target: self.target.to_array(), fov_y: self.fov_y, ..Camera::default() }
     }
 
-    fn eye(&self) -> Vec3 {
-        self.target + self.backward() * self.distance
+    fn eye(&self) -> DVec3 {
+        self.target + (self.backward() * self.distance).as_dvec3()
     }
 
     fn backward(&self) -> Vec3 {
@@ -102,10 +100,10 @@ impl Orbit {
 
 /// The same camera in a trembling hand.
 pub fn shaken(camera: Camera, time: f32) -> Camera {
-    let distance = Vec3::from(camera.eye).distance(camera.target.into()).max(1.0);
+    let distance = DVec3::from(camera.eye).distance(camera.target.into()).max(1.0);
     // Frequencies without a common period, so that no frame repeats.
-    let offset = 0.01 * distance * Vec3::new((17.0 * time).sin(), (23.0 * time).sin(), (29.0 * time).sin());
-    Camera { eye: (Vec3::from(camera.eye) + offset).to_array(), ..camera }
+    let offset = Vec3::new((17.0 * time).sin(), (23.0 * time).sin(), (29.0 * time).sin()).as_dvec3();
+    Camera { eye: (DVec3::from(camera.eye) + 0.01 * distance * offset).to_array(), ..camera }
 }
 
 #[cfg(test)]
@@ -117,16 +115,16 @@ mod tests {
         Orbit::from(&camera, [0.0, 1.0, 0.0])
     }
 
-    fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
-        Vec3::from(a).distance(b.into())
+    fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+        DVec3::from(a).distance(b.into())
     }
 
     #[test]
     fn it_starts_where_the_other_camera_is_and_looks_the_same_way() {
         let camera = orbit().camera();
         assert!(distance(camera.eye, [1.0, 2.0, 4.0]) < 1e-5);
-        let forward = (Vec3::from(camera.target) - Vec3::from(camera.eye)).normalize();
-        assert!(forward.distance(Vec3::new(-0.5, -0.5, -1.0).normalize()) < 1e-5);
+        let forward = (DVec3::from(camera.target) - DVec3::from(camera.eye)).normalize();
+        assert!(forward.distance(DVec3::new(-0.5, -0.5, -1.0).normalize()) < 1e-5);
     }
 
     #[test]
@@ -147,9 +145,18 @@ mod tests {
         for drag in [Orbit::look, Orbit::pan] {
             let (before, mut after) = (orbit(), orbit());
             drag(&mut after, [0.1, 0.1]);
-            let seen = before.target - after.eye();
+            let seen = (before.target - after.eye()).as_vec3();
             assert!(seen.dot(after.right()) > 0.0 && seen.dot(after.up()) < 0.0);
         }
+    }
+
+    #[test]
+    fn far_from_the_origin_it_moves_in_small_steps_too() {
+        let camera = Camera { eye: [524_288.0, 2.0, 4.0], target: [524_288.0, 2.0, 3.0], ..Camera::default() };
+        let mut orbit = Orbit::from(&camera, [524_288.0, 2.0, 0.0]);
+        let before = orbit.camera().eye;
+        orbit.walk([1e-4, 0.0, 0.0]);
+        assert!((orbit.camera().eye[0] - before[0] - 4e-4).abs() < 1e-8);
     }
 
     #[test]
@@ -157,7 +164,7 @@ mod tests {
         let mut orbit = orbit();
         orbit.orbit([0.0, 100.0]);
         assert!(orbit.right().dot(orbit.up()).abs() < 1e-5 && orbit.camera().eye[1] > orbit.camera().target[1]);
-        assert!((Vec3::from(orbit.camera().eye) - orbit.target).normalize().y < 1.0);
+        assert!((DVec3::from(orbit.camera().eye) - orbit.target).normalize().y < 1.0);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::sky::{is_dark, sky};
 use crate::state::Motion;
 use asvgf::Camera;
 use asvgf::scene::{self, Animation, Loaded, Pose, Scene, SceneError, builtin};
-use glam::{Mat4, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 use std::path::Path;
 
 /// Seconds that a blinking lamp is on, and off.
@@ -27,7 +27,7 @@ pub struct Stage {
     /// Whether each node goes along with the lamps, or with the object.
     with_lamps: Vec<bool>,
     with_object: Vec<bool>,
-    bounds: [Vec3; 2],
+    bounds: [DVec3; 2],
 }
 
 impl Stage {
@@ -80,7 +80,7 @@ impl Stage {
         }
         let with_lamps = followers(&scene, |node| lamps.contains(&node));
         let with_object = followers(&scene, |node| Some(node) == object);
-        let bounds = bounds(&scene).unwrap_or([Vec3::NEG_ONE, Vec3::ONE]);
+        let bounds = bounds(&scene).unwrap_or([DVec3::NEG_ONE, DVec3::ONE]);
         let name = |node: usize| Some(&scene.nodes[node].name).filter(|n| !n.is_empty()).cloned();
         Self {
             object_name: object.map(|node| name(node).unwrap_or_else(|| format!("node {node}"))),
@@ -105,11 +105,11 @@ impl Stage {
 
     /// How far things may be moved by hand, in metres.
     pub fn reach(&self) -> f32 {
-        0.25 * (self.bounds[1] - self.bounds[0]).max_element()
+        (0.25 * (self.bounds[1] - self.bounds[0]).max_element()) as f32
     }
 
     /// The middle of everything.
-    pub fn centre(&self) -> [f32; 3] {
+    pub fn centre(&self) -> [f64; 3] {
         (0.5 * (self.bounds[0] + self.bounds[1])).to_array()
     }
 
@@ -124,8 +124,8 @@ impl Stage {
         for (node, world) in pose.world.iter_mut().enumerate() {
             for (follows, offset) in [(&self.with_lamps, motion.lamp), (&self.with_object, motion.object)] {
                 if follows[node] {
-                    *world =
-                        (Mat4::from_translation(offset.into()) * Mat4::from_cols_array_2d(world)).to_cols_array_2d();
+                    let moved = DMat4::from_translation(Vec3::from(offset).as_dvec3());
+                    *world = (moved * DMat4::from_cols_array_2d(world)).to_cols_array_2d();
                 }
             }
         }
@@ -209,6 +209,31 @@ mod tests {
         assert_eq!(lamp(&mut stage, &Motion { brightness: 0.5, ..still() }, 0.0), 0.5 * on);
         let red = stage.pose(&Motion { tint: [1.0, 0.0, 0.0], ..still() }, 0.0);
         assert!(red.emission.iter().all(|factor| *factor == [1.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn a_scene_without_a_camera_is_framed_alike_wherever_it_stands() {
+        let seen = |x: f32| {
+            let mut scene = cornell().scene;
+            scene.nodes.iter_mut().for_each(|node| node.camera = None);
+            scene.nodes.insert(0, scene::Node::default());
+            for node in &mut scene.nodes[1..] {
+                node.parent = Some(node.parent.map_or(0, |parent| parent + 1));
+            }
+            scene.animations.clear();
+            let translation = [x, 0.0, -x];
+            scene.nodes[0].transform =
+                scene::Transform::Trs { translation, rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
+            let mut stage = Stage::new(scene, None, Vec::new());
+            let pose = stage.pose(&still(), 0.0);
+            (stage.camera(&pose, 1.5), stage.reach())
+        };
+        let ((near, reach), (far, far_reach)) = (seen(0.0), seen(524_288.0));
+        for (far, near) in [(far.eye, near.eye), (far.target, near.target)] {
+            let back = DVec3::from(far) - DVec3::new(524_288.0, 0.0, -524_288.0);
+            assert!(back.distance(near.into()) < 1e-6, "{back}, not {near:?}");
+        }
+        assert!((reach - far_reach).abs() < 1e-6 && reach > 0.0);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What happens over frames.
 
 mod change;
+mod far;
 mod flicker;
 mod leaving_out;
 mod lifecycle;

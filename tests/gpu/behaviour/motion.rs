@@ -3,7 +3,7 @@
 use crate::common::plane::{Pinhole, V, add, cross, dot, scale, sub};
 use crate::common::scenes::{lambert, quad, scene};
 use crate::common::stage::Stage;
-use asvgf::scene::{Node, Scene, Transform};
+use asvgf::scene::{Node, Scene, Transform, WorldMatrix};
 use asvgf::{Camera, Settings, View};
 
 const SIZE: [u32; 2] = [48, 32];
@@ -30,9 +30,10 @@ fn placement(frame: u32) -> Transform {
 
 fn camera(frame: u32) -> Camera {
     let t = frame as f32;
+    let d = f64::from(frame);
     Camera {
-        eye: [0.1 * t, 0.05 * t, 4.0 - 0.1 * t],
-        target: [0.0, 0.02 * t, 0.0],
+        eye: [0.1 * d, 0.05 * d, 4.0 - 0.1 * d],
+        target: [0.0, 0.02 * d, 0.0],
         up: [0.02 * t, 1.0, 0.0],
         fov_y: 0.7 + 0.01 * t,
         jitter: [0.3 - 0.2 * t, 0.1 * t],
@@ -47,8 +48,8 @@ struct Card {
 }
 
 impl Card {
-    fn of(matrix: [[f32; 4]; 4], [corner, u, v]: [V; 3]) -> Self {
-        let m = matrix.map(|column| [column[0], column[1], column[2]].map(f64::from));
+    fn of(matrix: WorldMatrix, [corner, u, v]: [V; 3]) -> Self {
+        let m = matrix.map(|column| [column[0], column[1], column[2]]);
         let vector = |p: V| add(add(scale(m[0], p[0]), scale(m[1], p[1])), scale(m[2], p[2]));
         Self { corner: add(vector(corner), m[3]), u: vector(u), v: vector(v) }
     }

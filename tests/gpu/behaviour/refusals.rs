@@ -59,7 +59,7 @@ fn a_target_that_does_not_fit() {
 fn a_camera_that_sees_nothing() {
     let mut pair = Pair::new();
     let cameras = [
-        ("eye", Camera { eye: [f32::NAN; 3], ..Default::default() }),
+        ("eye", Camera { eye: [f64::NAN; 3], ..Default::default() }),
         ("target", Camera { target: [0.0; 3], ..Default::default() }),
         ("up", Camera { up: [0.0, 0.0, 2.0], ..Default::default() }),
         ("fov_y", Camera { fov_y: 4.0, ..Default::default() }),

@@ -2,6 +2,7 @@
 
 mod cleaning;
 mod copies;
+mod far;
 mod formats;
 mod levels;
 mod orthographic;
@@ -50,7 +51,7 @@ fn recorded(settings: Settings) -> Vec<Recorded> {
     (stage.index..10)
         .map(|i| {
             let index = 24 + i;
-            let x = 0.1 + 0.01 * i as f32;
+            let x = 0.1 + 0.01 * f64::from(i);
             let camera = Camera { eye: [x, 0.8, 3.0], target: [0.3, 0.5, -1.0], fov_y: 0.4, ..Default::default() };
             (stage.camera, stage.index) = (Some(camera), index);
             let denoised = stage.frame().image();

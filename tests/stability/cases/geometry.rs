@@ -2,9 +2,11 @@
 
 use super::furnace::{Furnace, ROUNDING, grey};
 use super::{Breaks, Case, Named, Worst};
-use crate::common::scenes::quad;
-use asvgf::Camera;
-use asvgf::scene::{Mesh, Scene};
+use crate::common::scenes::{before_corner, corner, quad};
+use crate::common::stage::Stage;
+use crate::common::statistics::mean;
+use asvgf::scene::{Mesh, Scene, Transform};
+use asvgf::{Camera, Settings, TracerSettings};
 use std::f32::consts::PI;
 
 const SIZE: [u32; 2] = [32, 24];
@@ -32,6 +34,42 @@ pub const CASES: &[Case] = &[
         origin: ORIGIN,
         measure: far_away,
         breaks: Breaks::Found(far_away_break),
+    },
+    Case {
+        name: "a corner far from the origin",
+        varied: "a floor and a wall 8 km, 33 km and 524 km away, by their vertices, by nodes, and by nodes that a host may move",
+        quantity: "relative difference of the image's mean from that at the origin",
+        bound: 1e-3,
+        origin: "coordinates count from the scene's centre, so the numbers are the same; 1 %, 4.6 % and 12.6 % before",
+        measure: far_corner,
+        breaks: Breaks::Known("far from the middle of its own scene a surface is as in “a corner in a large scene”"),
+    },
+    Case {
+        name: "a corner in a large scene",
+        varied: "a floor and a wall 2, 4 and 16 km from the scene's centre",
+        quantity: "relative difference of the image's mean from that at the centre",
+        bound: 5e-3,
+        origin: "contact shadows narrower than the offset of rays are lost: some 10⁻⁶ of the distance",
+        measure: corner_in_large_scene,
+        breaks: Breaks::Found(large_scene_break),
+    },
+    Case {
+        name: "bodies in a large scene",
+        varied: "balls, and plates of several tilts, 10 … 10⁴ times their size from the scene's centre; static, and as instances that are turned",
+        quantity: QUANTITY,
+        bound: ROUNDING,
+        origin: ORIGIN,
+        measure: bodies_in_large_scene,
+        breaks: Breaks::Known("where a body is as small as a few steps of f32 there, its shape is lost"),
+    },
+    Case {
+        name: "within a solid in a large scene",
+        varied: "a closed box of 12 triangles and a ball of 720 round the eye, 10 … 10⁴ times their size from the scene's centre",
+        quantity: "light that leaks in, in parts of the sky's",
+        bound: 0.0,
+        origin: "no ray leaves a closed surface, not by an edge or a vertex either",
+        measure: enclosed_in_large_scene,
+        breaks: Breaks::Known("where a body is as small as a few steps of f32 there, its shape is lost"),
     },
     Case {
         name: "range of depths",
@@ -113,7 +151,7 @@ pub const CASES: &[Case] = &[
         origin: ORIGIN,
         measure: fields_of_view,
         breaks: Breaks::Known(
-            "at π − 10⁻⁶ surfaces are met 10⁷ times as far as the eye is from them, and shadow themselves; 0 and π are refused by name",
+            "at π − 10⁻⁵ surfaces are met 10⁶ times as far as the eye is from their plane, and rounding takes their depth; 0 and π are refused by name",
         ),
     },
 ];
@@ -141,12 +179,12 @@ fn plane(half: f32, [x, y, z]: [f32; 3]) -> Mesh {
 }
 
 /// From a place towards −Z.
-fn looking(eye: [f32; 3]) -> Camera {
+fn looking(eye: [f64; 3]) -> Camera {
     Camera { eye, target: [eye[0], eye[1], eye[2] - eye[2].abs().max(1.0)], ..Default::default() }
 }
 
 fn at_scale(furnace: &mut Furnace, scale: f32) -> f64 {
-    let eye = [0.3 * scale, 0.2 * scale, 3.0 * scale];
+    let eye = [0.3, 0.2, 3.0].map(|x| x * f64::from(scale));
     let camera = |_| Camera { eye, target: [0.0; 3], ..Default::default() };
     let scenes = [grey(vec![ball(scale, [0.0; 3])]), grey(vec![plane(scale, [0.0; 3])])];
     scenes.into_iter().map(|scene| furnace.farthest_seen(scene, 3, camera)).fold(0.0, f64::max)
@@ -173,7 +211,7 @@ fn scales_break() -> String {
 
 fn away(furnace: &mut Furnace, distance: f32) -> f64 {
     let place = [distance, 0.0, 0.0];
-    let eye = [distance, 0.0, 12.0];
+    let eye = [distance.into(), 0.0, 12.0];
     furnace.farthest_seen(grey(vec![plane(5.0, place)]), 3, |_| looking(eye))
 }
 
@@ -192,6 +230,142 @@ fn far_away_break() -> String {
         .map(|power| 10.0_f32.powi(power))
         .find(|&d| away(&mut furnace, d) > ROUNDING)
         .map_or("none up to 10¹²".into(), |d| format!("{d:e} away"))
+}
+
+/// The mean of a corner's image with noise that is always the same.
+fn corner_mean(scene: Scene, place: [f64; 3]) -> f64 {
+    let tracer = TracerSettings { samples: 64, ..Default::default() };
+    let mut stage = Stage::new(scene, [64, 48], Settings { tracer, ..Settings::adaptive() });
+    stage.camera = Some(before_corner(place));
+    mean(&stage.frame().image())
+}
+
+/// A corner that stands elsewhere: by its vertices, or by its nodes.
+fn corner_at(place: [f64; 3], by_nodes: bool) -> Scene {
+    let translation = place.map(|x| x as f32);
+    if !by_nodes {
+        return grey(corner(translation));
+    }
+    let mut scene = grey(corner([0.0; 3]));
+    scene.nodes.iter_mut().for_each(|node| node.transform = moved(translation));
+    scene
+}
+
+fn moved(translation: [f32; 3]) -> Transform {
+    Transform::Trs { translation, rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] }
+}
+
+fn far_corner() -> Worst {
+    let mut worst = Worst::default();
+    let near = corner_mean(corner_at([0.0; 3], false), [0.0; 3]);
+    for distance in [8192.0, 32_768.0, 524_288.0] {
+        let place = [distance, 0.0, -distance];
+        for (name, by_nodes, movable) in [("vertices", false, false), ("nodes", true, false), ("movable", true, true)] {
+            let mut scene = corner_at(place, by_nodes);
+            scene.nodes.iter_mut().for_each(|node| node.movable = movable);
+            worst.add((corner_mean(scene, place) / near - 1.0).abs(), || format!("{distance} m, {name}"));
+        }
+    }
+    worst
+}
+
+/// Copies of a small triangle, by which a scene about a place contains as much on the other side of the origin.
+fn opposite([x, y, z]: [f32; 3], copies: usize) -> Mesh {
+    let positions = vec![[-x, -y, -z], [-x + 1e-2, -y, -z], [-x, -y + 1e-2, -z]];
+    Mesh { positions, triangles: vec![[0, 1, 2]; copies], ..Default::default() }
+}
+
+/// So few triangles that a software adapter tests each, and so many that it makes a tree of them.
+const FEW_AND_MANY: [usize; 2] = [1, 70];
+
+fn corner_off_centre(distance: f32) -> f64 {
+    let difference = |place: [f32; 3]| {
+        let mut meshes = corner(place);
+        meshes.push(opposite(place, 70));
+        corner_mean(grey(meshes), place.map(f64::from))
+    };
+    // In no direction are all coordinates round.
+    let near = corner_mean(grey(corner([0.0; 3])), [0.0; 3]);
+    (difference([distance, 0.125 * distance, -0.5 * distance]) / near - 1.0).abs()
+}
+
+fn corner_in_large_scene() -> Worst {
+    let mut worst = Worst::default();
+    for distance in [2048.0, 4096.0, 16_384.0] {
+        worst.add(corner_off_centre(distance), || format!("{distance} m"));
+    }
+    worst
+}
+
+fn large_scene_break() -> String {
+    let found = (12..=24).map(|power| 2.0_f32.powi(power)).find(|&d| corner_off_centre(d) > 5e-3);
+    found.map_or("none up to 16 000 km".into(), |d| format!("{:.0} km from the centre", d / 1000.0))
+}
+
+/// A place whose coordinates are not round.
+fn off_centre(distance: f32) -> [f32; 3] {
+    [0.83, 0.31, -0.47].map(|x| x * distance)
+}
+
+/// A tilted plate about a place.
+fn plate(tilt: f32, centre: [f32; 3]) -> Mesh {
+    let (s, c) = tilt.sin_cos();
+    let (u, v) = ([2.0 * c, 0.3, -2.0 * s], [0.2 * s, 2.0, 0.2 * c]);
+    quad([0, 1, 2].map(|i| centre[i] - 0.5 * (u[i] + v[i])), u, v, 0)
+}
+
+fn bodies_in_large_scene() -> Worst {
+    let mut worst = Worst::default();
+    let mut furnace = Furnace::new(SIZE);
+    for distance in [10.0, 1e2, 1e3, 1e4] {
+        let place = off_centre(distance);
+        let bodies = [0.0, 0.2, 0.7, -0.5].map(|tilt| (format!("a plate at {tilt}"), plate(tilt, [0.0; 3])));
+        for (name, body) in bodies.into_iter().chain([("a ball".to_owned(), ball(1.0, [0.0; 3]))]) {
+            for (turned, count) in FEW_AND_MANY.into_iter().flat_map(|n| [(false, n), (true, n)]) {
+                // Turned by a node that may move, or moved by its vertices.
+                let mut own = body.clone();
+                if !turned {
+                    own.positions.iter_mut().for_each(|p| *p = [0, 1, 2].map(|i| p[i] + place[i]));
+                }
+                let mut scene = grey(vec![own, opposite(place, count)]);
+                if turned {
+                    let rotation = [0.1_f32, 0.2, 0.1, 0.969_536];
+                    scene.nodes[0].transform = Transform::Trs { translation: place, rotation, scale: [1.0, 0.9, 1.1] };
+                    scene.nodes[0].movable = true;
+                }
+                let at = place.map(f64::from);
+                let eye = [at[0] + 0.4, at[1] + 0.3, at[2] + 3.0];
+                let camera = |_| Camera { eye, target: at, ..Default::default() };
+                let value = furnace.farthest_seen(scene, 3, camera);
+                worst.add(value, || format!("{name}, {distance} away, turned: {turned}, beside {count} triangles"));
+            }
+        }
+    }
+    worst
+}
+
+fn enclosed_in_large_scene() -> Worst {
+    let mut worst = Worst::default();
+    let mut furnace = Furnace::new([33, 25]);
+    for distance in [10.0, 1e2, 1e3, 1e4] {
+        let place = off_centre(distance);
+        for (name, mut body) in [("box", closed_box(1.0)), ("ball", ball(1.0, [0.0; 3]))] {
+            body.positions.iter_mut().for_each(|p| *p = [0, 1, 2].map(|i| p[i] + place[i]));
+            let starts = [[0.0, 0.0, 0.0], [0.9, 0.1, 0.2], [0.5, 0.5, 0.5]];
+            for (start, count) in starts.into_iter().flat_map(|s| FEW_AND_MANY.map(|n| (s, n))) {
+                let eye = std::array::from_fn(|i| start[i] + f64::from(place[i]));
+                let camera = |frame| {
+                    let towards = [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.1], [0.3, -0.7, 0.2]];
+                    let way: [f64; 3] = towards[frame as usize % 4];
+                    let target = std::array::from_fn(|i| way[i] + f64::from(place[i]));
+                    Camera { eye, target, fov_y: 2.0, ..Default::default() }
+                };
+                let value = furnace.brightest(grey(vec![body.clone(), opposite(place, count)]), 8, camera);
+                worst.add(value, || format!("a {name}, {distance} away, {start:?}, beside {count} triangles"));
+            }
+        }
+    }
+    worst
 }
 
 fn depths() -> Worst {
@@ -214,7 +388,7 @@ fn grazing() -> Worst {
         let floor = quad([-50.0, 0.0, 50.0], [100.0, 0.0, 0.0], [0.0, 0.0, -100.0], 0);
         // The middle of the image meets the floor at that angle.
         let camera = |_| Camera {
-            eye: [0.0, height, 10.0],
+            eye: [0.0, height.into(), 10.0],
             target: [0.0; 3],
             fov_y: (2.0 * degrees).to_radians(),
             ..Default::default()
@@ -243,10 +417,7 @@ fn huge_break() -> String {
     let mut furnace = Furnace::new(SIZE);
     let first = (4..=12).map(|power| 3.0 * 10.0_f32.powi(power)).find(|&half| large(&mut furnace, half) > ROUNDING);
     first.map_or("none up to 10¹²".into(), |half| {
-        format!(
-            "{:.0e} times: the offset of a ray's origin goes with its place, not with the size of its triangle",
-            half / 3.0
-        )
+        format!("{:.0e} times: the square of a triangle's area is infinite there", half / 3.0)
     })
 }
 
@@ -346,12 +517,12 @@ fn enclosed() -> Worst {
         for (name, mesh) in [("box", closed_box(scale)), ("ball", ball(scale, [0.0; 3]))] {
             let eyes = [("the middle", [0.0, 0.0, 0.0]), ("a wall", [0.9, 0.1, 0.2]), ("a corner", [0.5, 0.5, 0.5])];
             for (place, eye) in eyes {
-                let eye = eye.map(|x: f32| x * scale);
+                let eye = eye.map(|x: f64| x * f64::from(scale));
                 let camera = |frame| {
                     // A vertex of the box, an edge, and faces.
                     let target =
                         [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.1], [0.3, -0.7, 0.2]][frame as usize % 4];
-                    Camera { eye, target: target.map(|x: f32| x * scale), fov_y: 2.0, ..Default::default() }
+                    Camera { eye, target: target.map(|x: f64| x * f64::from(scale)), fov_y: 2.0, ..Default::default() }
                 };
                 let scene = grey(vec![mesh.clone()]);
                 worst.add(furnace.brightest(scene, 8, camera), || format!("a {name} of 10^{power}, {place}"));

@@ -128,7 +128,7 @@ impl Window {
     }
 
     /// Where the camera of the last frame is.
-    pub fn eye(&self) -> [f32; 3] {
+    pub fn eye(&self) -> [f64; 3] {
         self.demo().picture.camera().expect("a frame").eye
     }
 
