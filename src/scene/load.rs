@@ -6,6 +6,7 @@ pub(crate) mod folder;
 mod ktx2;
 #[cfg(feature = "gltf")]
 pub(crate) mod normals;
+pub(crate) mod pane;
 pub(crate) mod recognise;
 pub(crate) mod report;
 

@@ -28,3 +28,4 @@ mod obj_wild;
 mod paths;
 mod properties;
 mod scene;
+mod wild;

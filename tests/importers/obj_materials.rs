@@ -24,19 +24,18 @@ fn diffuse_glossy_metallic_and_emitting_materials() {
 
 #[test]
 fn opacity() {
-    let clear = material("d 0.2\n");
-    assert_warnings(&clear, &[("test.mtl material \"m\"", "opacity 0.2 is below 0.5")]);
-    assert_eq!((clear.scene.materials[0].alpha, clear.scene.materials[0].base_color[3]), (Alpha::Mask(0.5), 0.2));
-    let half = material("Tr 0.25\n");
-    assert_warnings(&half, &[("m", "0.75 is drawn as 1")]);
-    assert_eq!(half.scene.materials[0].alpha, Alpha::Opaque);
+    for (text, opacity) in [("d 0.2\n", 0.2), ("Tr 0.25\n", 0.75), ("Tr 0\nd 0.1\n", 0.1)] {
+        let loaded = material(text);
+        assert_warnings(&loaded, &[]);
+        assert_eq!((loaded.scene.materials[0].alpha, loaded.scene.materials[0].base_color[3]), (Alpha::Blend, opacity));
+    }
+    assert_warnings(&material("d 0\n"), &[("material \"m\"", "its opacity is 0")]);
     assert_warnings(&material("d -halo 1\n"), &[]);
     // `d` wins wherever they stand.
     for both in ["d 1\nTr 1\n", "Tr 1\nd 1\n", "TR 0\nD 1.0\n"] {
         assert_warnings(&material(both), &[]);
         assert_eq!(material(both).scene.materials[0].alpha, Alpha::Opaque);
     }
-    assert_warnings(&material("Tr 0\nd 0.1\n"), &[("m", "opacity 0.1 is below 0.5")]);
 }
 
 #[test]
@@ -85,14 +84,15 @@ fn illumination_models() {
     }
     for glass in ["4", "6", "7", "9"] {
         let loaded = made(glass);
-        assert_warnings(&loaded, &[("material \"m\"", &format!("illum {glass} (glass) is not read"))]);
+        assert_warnings(&loaded, &[("material \"m\"", &format!("illum {glass} (glass) is drawn as a thin pane"))]);
         let material = &loaded.scene.materials[0];
-        assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Opaque), "no mirror");
-        assert_close(&material.specular, &[0.04; 3], 1e-6);
+        assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Blend), "no mirror");
+        // 4 % are reflected, the rest goes through.
+        assert_close(&[material.base_color[3], material.specular[0] * 0.04], &[0.04; 2], 1e-6);
     }
     assert_warnings(&made("12"), &[("material \"m\"", "illum 12 is not known; 2 is used")]);
     // One warning for what is one defect.
-    assert_warnings(&material("illum 9\nd 0.75\nTf 1 0 0\n"), &[("m", "0.75 is drawn as 1")]);
+    assert_warnings(&material("illum 9\nd 0.75\nTf 1 0 0\n"), &[("m", "illum 9 (glass) does not refract")]);
     assert_warnings(&material("illum 2\nTf 1 1 1\n"), &[]);
     assert_warnings(&material("illum 2\nTf 1 0.5 1\n"), &[("m", "Tf (coloured transmission) is not read")]);
 }

@@ -49,13 +49,18 @@ fn files_in_the_wild() {
     }
     let metal = &read("pbr").scene.materials[0];
     assert_eq!((metal.base_color, metal.roughness, metal.metallic), ([0.9, 0.6, 0.3, 1.0], 0.2, 1.0));
-    assert_warnings(&read("glass"), &[("material \"m\"", "illum 7 (glass) is not read")]);
+    assert_warnings(&read("glass"), &[("material \"m\"", "illum 7 (glass) is drawn as a thin pane")]);
     for name in ["mapd", "mapd_alone", "mapd_same_grey"] {
         let loaded = read(name);
         assert_warnings(&loaded, &[]);
         assert_eq!(loaded.scene.materials[0].alpha, Alpha::Mask(0.5), "{name}");
         let texels = loaded.scene.images.iter().flat_map(|image| &image.texels);
         assert!(texels.clone().any(|texel| texel[3] == 0) && texels.clone().any(|texel| texel[3] == 255), "{name}");
+    }
+    for name in ["tex_tga", "tex_bmp", "tex_webp", "tex_tiff"] {
+        assert_warnings(&read(name), &[]);
+        // WebP is lossy.
+        assert!(std::iter::zip(first_texel(&read(name)), [255, 0, 0, 255]).all(|(a, b)| a.abs_diff(b) <= 1), "{name}");
     }
     let mesh = &read("smooth").scene.meshes[0];
     for (position, normal) in std::iter::zip(&mesh.positions, &mesh.normals) {

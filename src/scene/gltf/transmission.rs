@@ -1,18 +1,12 @@
-//! Glass (KHR_materials_transmission) as panes that light goes straight through.
-//!
-//! The path tracer does not refract. An opaque pane would hide what it protects: a lamp behind glass would light nothing. A pane
-//! that covers a part of what lies behind it sends as much light on as thin clear glass does, straight and without a tint.
+//! Glass (KHR_materials_transmission), drawn as thin panes.
 
 use gltf::json::Material as MaterialSource;
 
-use crate::scene::description::{Alpha, Material};
+use crate::scene::description::Material;
+use crate::scene::load::pane::thin_pane;
 use crate::scene::load::report::Report;
 
-/// Makes a material that transmits one that covers.
-///
-/// With transmission t, base colour c and reflectance F₀ the part τ = t·(1 − F₀)·c̄ goes through, where c̄ is the mean of c. The rest
-/// 1 − τ is the opacity. Where a ray meets the surface, it is more often diffuse or specular by 1/(1 − τ), so that on average it
-/// reflects (1 − t)·(1 − F₀)·c and F₀.
+/// Makes a material that transmits a thin pane.
 pub(super) fn apply(source: &MaterialSource, material: Material, element: &str, report: &mut Report) -> Material {
     let Some(extension) = source.extensions.as_ref().and_then(|extensions| extensions.transmission.as_ref()) else {
         return material;
@@ -25,19 +19,5 @@ pub(super) fn apply(source: &MaterialSource, material: Material, element: &str, 
     }
     let texture = if extension.transmission_texture.is_some() { ", and its texture is not read" } else { "" };
     report.warn(user, format!("glass is drawn as a thin pane that neither refracts nor tints{texture}"));
-    let [r, g, b, opacity] = material.base_color;
-    let reflectance = material.specular.iter().sum::<f32>() / 3.0;
-    let through = transmission * (1.0 - reflectance) * (r + g + b) / 3.0;
-    let covered = 1.0 - through;
-    // A pane that reflects nothing and lets everything through is not there.
-    let scale = if covered > 0.0 { 1.0 / covered } else { 0.0 };
-    let diffuse = (1.0 - transmission) * (1.0 - reflectance) * scale;
-    let [r, g, b] = [r, g, b].map(|channel| (channel * diffuse).min(1.0));
-    let keeps = matches!(material.alpha, Alpha::Blend);
-    Material {
-        base_color: [r, g, b, if keeps { opacity * covered } else { covered }],
-        specular: material.specular.map(|channel| (channel * scale).min(1.0)),
-        alpha: Alpha::Blend,
-        ..material
-    }
+    thin_pane(material, transmission)
 }

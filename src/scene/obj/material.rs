@@ -5,8 +5,8 @@
 //! - `Pr` and `Pm`, and their maps, are the metallic-roughness model of glTF, in which `Ks` has no place: a dielectric
 //!   reflects as its index of refraction (`Ni`, 1.5 without one) says. A map replaces its number, as in Blender, which writes
 //!   an unused number beside each map.
-//! - Glass (`illum` 4, 6, 7, 9; a coloured `Tf`) is drawn as opaque, with a warning.
-//! - `d` is opacity, and wins over `Tr` = 1 − `d`, which some exporters write the other way round.
+//! - Glass (`illum` 4, 6, 7, 9) is drawn as a thin pane ([`thin_pane`]), with a warning, or with its `d` where that is below 1.
+//! - `d` is opacity: a surface covers as much of what lies behind. It wins over `Tr` = 1 − `d`, which some exporters write the other way round.
 //! - `map_d` is a mask, cut off at one half: the alpha channel of `map_Kd` where it is the same file and has one; otherwise
 //!   the luminance, or the alpha of an image of one colour; `-imfchan` wins over both. The alpha channel of `map_Kd` alone
 //!   means nothing.
@@ -16,9 +16,10 @@ use super::source::{Source, Texture as Kind};
 use super::text::shortened;
 use super::textures::{Raw, Textures};
 use crate::scene::description::{Alpha, Material, Texture};
+use crate::scene::load::pane::thin_pane;
 use crate::scene::load::report::Report;
 
-/// Opacity below which a surface is taken to be absent.
+/// Opacity of a mask below which there is a hole.
 const CUTOFF: f32 = 0.5;
 /// Index of refraction of most dielectrics.
 const GLASS: f32 = 1.5;
@@ -83,7 +84,6 @@ impl Source {
         let color_map = if metal { specular_map } else { diffuse_map };
 
         let opacity = self.opacity(color_map, opacity_map, textures, element, report);
-        self.warn_transmission(model, opacity.factor < 1.0, element, report);
         let emissive_texture = emissive_map.map(|(raw, map)| textures.plain(raw, map));
         let emissive = self.emissive.map(|emissive| report.clamp_radiance(emissive, || element.clone()));
         let emissive = emissive.filter(|&emissive| strongest(emissive) > 0.0);
@@ -91,9 +91,9 @@ impl Source {
         let metallic_roughness_texture = surface(surface_maps, textures, element, report);
         let [rough, metallic] = surface_maps.map(|map| map.is_some() && metallic_roughness_texture.is_some());
         let unit = |value: f32, report: &mut Report| report.clamp_unit(value, || element.clone());
-        Material {
+        let material = Material {
             name: name.clone(),
-            base_color: [r, g, b, if opacity.factor < CUTOFF { opacity.factor } else { 1.0 }],
+            base_color: [r, g, b, opacity.factor],
             base_color_texture: opacity.texture.or_else(|| color_map.map(|(raw, map)| textures.plain(raw, map))),
             metallic: match self.metallic {
                 _ if metallic || metal => 1.0,
@@ -113,7 +113,8 @@ impl Source {
             specular: if metal { [0.0; 3] } else { specular },
             specular_color_texture: specular_map.filter(|_| !metal).map(|(raw, map)| textures.plain(raw, map)),
             ..Material::default()
-        }
+        };
+        self.transmission(model, material, element, report)
     }
 
     fn model(&self, element: &str, report: &mut Report) -> Model {
@@ -158,12 +159,10 @@ impl Source {
     ) -> Opacity {
         let given = self.opacity.or(self.transparency.map(|transparency| 1.0 - transparency)).unwrap_or(1.0);
         let factor = report.clamp_unit(given, || element.to_owned());
-        if factor < CUTOFF {
-            report.warn(element, format!("opacity {factor} is below {CUTOFF}; the surface is not drawn"));
-        } else if factor < 1.0 {
-            report.warn(element, format!("opacity {factor} is drawn as 1"));
+        if factor == 0.0 {
+            report.warn(element, "its opacity is 0; nothing of the surface is seen");
         }
-        let alpha = if factor < CUTOFF { Alpha::Mask(CUTOFF) } else { Alpha::Opaque };
+        let alpha = if factor < 1.0 { Alpha::Blend } else { Alpha::Opaque };
         let Some((raw, map)) = mask else { return Opacity { factor, alpha, texture: None } };
 
         let same = color.is_some_and(|(color, _)| color == raw);
@@ -188,6 +187,7 @@ impl Source {
             _ => textures.masked(color, (raw, map, channel)),
         };
         match texture {
+            Ok(texture) if factor < 1.0 => Opacity { factor, alpha, texture: Some(texture) },
             Ok(texture) => Opacity { factor, alpha: Alpha::Mask(CUTOFF), texture: Some(texture) },
             Err(reason) => {
                 report.warn(element, format!("map_d {reason}; the surface is drawn as opaque"));
@@ -196,16 +196,26 @@ impl Source {
         }
     }
 
-    fn warn_transmission(&self, model: Model, said: bool, element: &str, report: &mut Report) {
-        let filter = self.transmission.filter(|&filter| filter != [0.0; 3] && filter != [1.0; 3]);
+    /// Glass and coloured transmission.
+    fn transmission(&self, model: Model, material: Material, element: &str, report: &mut Report) -> Material {
+        let filter = self.transmission.filter(|&filter| filter != [0.0; 3]).unwrap_or([1.0; 3]);
         match model {
-            // The opacity was said to be drawn as 1.
-            _ if said => {}
-            Model::Glass(model) => {
-                report.warn(element, format!("illum {model} (glass) is not read; the surface is drawn as opaque"));
+            Model::Glass(model) if material.alpha == Alpha::Blend => {
+                report.warn(element, format!("illum {model} (glass) does not refract"));
+                material
             }
-            _ if filter.is_some() => report.warn(element, "Tf (coloured transmission) is not read"),
-            _ => {}
+            Model::Glass(model) => {
+                let reason = format!("illum {model} (glass) is drawn as a thin pane that neither refracts nor tints");
+                report.warn(element, reason);
+                // Glass scatters nothing, whatever Kd says.
+                let clear = Material { base_color: [1.0; 4], base_color_texture: None, ..material };
+                thin_pane(clear, (filter.iter().sum::<f32>() / 3.0).clamp(0.0, 1.0))
+            }
+            _ if filter != [1.0; 3] => {
+                report.warn(element, "Tf (coloured transmission) is not read");
+                material
+            }
+            _ => material,
         }
     }
 }
