@@ -35,6 +35,15 @@ pub struct Loaded {
 /// scene file or below; network addresses are never followed. A path of another machine (absolute, with backslashes, out of
 /// the folder, in the wrong case) stands for the file in that folder whose path ends as it does, with a [`Warning`].
 ///
+/// # OBJ and MTL
+///
+/// - Polygons are triangulated in their own plane, quads along the shorter diagonal of those inside.
+/// - Faces of a smoothing group without normals get the mean of the faces around each vertex, weighted by angle; faces that
+///   meet at 80° or more have an edge between them. Faces without a group and without normals are flat.
+/// - Colours of vertices are taken as sRGB. They multiply the colour of the material, and are seen as they are without one.
+/// - `Pr`, `Pm` and their maps are metallic-roughness; `map_d` is a mask, cut off at one half; a surface covers as much as its
+///   opacity (`d`, which wins over `Tr`) says; glass (`illum` 4, 6, 7, 9) is a thin pane that neither refracts nor tints.
+///
 /// # Errors
 ///
 /// An unknown extension, a file that cannot be read, or one of which nothing can be drawn because positions, indices or

@@ -109,3 +109,33 @@ fn several_libraries_in_one_statement_and_names_with_spaces() {
         ["a", "b", "c"]
     );
 }
+
+#[test]
+fn names_of_libraries_in_quotes_or_twice() {
+    let folder = Folder::new();
+    folder.write("my lib.mtl", "newmtl a\n");
+    folder.write("b.mtl", "newmtl b\n");
+    let faces = "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n";
+    let text = |libraries: &str| format!("{libraries}\n{SQUARE}{faces}");
+    let twice = load(folder.write("test.obj", text("mtllib my lib.mtl\nmtllib b.mtl b.mtl\nmtllib ./b.mtl"))).unwrap();
+    assert_warnings(&twice, &[]);
+    assert_eq!(twice.scene.materials.len(), 2);
+    let quoted = load(folder.write("test.obj", text("mtllib \"my lib.mtl\"\nmtllib 'b.mtl'"))).unwrap();
+    assert_warnings(&quoted, &[("line 1", "\"my lib.mtl\" is read"), ("line 2", "\"b.mtl\" is read")]);
+    let list = load(folder.write("test.obj", text("mtllib \"my lib.mtl\" \"b.mtl\""))).unwrap();
+    assert_warnings(&list, &[]);
+    // Of a list, what is there is read.
+    let partly = load(folder.write("test.obj", text("mtllib b.mtl absent.mtl"))).unwrap();
+    assert_warnings(&partly, &[("line 1", "absent.mtl"), ("line 6", "no material \"a\"")]);
+}
+
+/// Faces of the default material, which is not the one before.
+#[test]
+fn materials_end_where_another_starts() {
+    let loaded =
+        read(format!("mtllib test.mtl\n{SQUARE}f 1 2 3\nusemtl m\nf 1 3 4\n"), "newmtl m\nKd 1 0 0\n").unwrap();
+    assert_warnings(&loaded, &[]);
+    let colors: Vec<_> =
+        loaded.scene.meshes.iter().map(|mesh| loaded.scene.materials[mesh.material].base_color[0]).collect();
+    assert_eq!(colors, [0.8, 1.0]);
+}

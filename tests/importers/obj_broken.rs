@@ -14,6 +14,11 @@ const OBJ: &str = "mtllib test.mtl\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\
 const MTL: &str = "newmtl m\nKd 0.5 0.5 0.5\nKs 0.1 0.1 0.1\nNs 30\nillum 2\nd 1\nmap_Kd a.png\nmap_Ke a.png\nnewmtl n\n\
                    Kd 0.2 0.2 0.2\nKe 1 1 1\nPr 0.5\nPm 0.5\nmap_Pr a.png\n";
 
+/// What else there is, for bytes that are broken anywhere.
+const MORE: &str = "s 1\nv 0 0 2 1 0 0\nv 2 0 2 0 1 0 1\nv 2 2 2.1 255 0 0\nv 1 .5 2\nv 0 2 2\nv 1 1 3\n\
+                    f -6 -5 -4 -3 -2\nf -6 -1 -5\nf -5 -1 -4 -3\ns 2\nf -6/1 -5/2 -4/3 -3 -2/4\n#MRGB ff0011ff\n\
+                    f 1 3 2 4\nf 1 2 \\\n3 3 4 1\ng a b\nusemtl q\n";
+
 /// Statements that may be broken, with the words after them that break them, and whether a face is lost.
 const OBJ_BREAKS: &[(&str, &[&str], bool)] = &[
     ("vt 1 1", &["vt nan 0", "vt", "vt x y", "vt 0 1e99", "vt -nan(ind) 0"], false),
@@ -31,7 +36,7 @@ const MTL_BREAKS: &[(&str, &[&str])] = &[
     ("Ks 0.1 0.1 0.1", &["Ks", "Ks 1 1", "Ks inf 0 0", "Ks 5 0 0", "bump a.png", "Pc 1"]),
     ("Ns 30", &["Ns", "Ns x", "Ns nan", "Ns 1e99"]),
     ("illum 2", &["illum 77", "illum x", "illum 7", "illum"]),
-    ("d 1", &["d x", "d", "d nan", "d 0.75", "d 2"]),
+    ("d 1", &["d x", "d", "d nan", "d 0", "d 2"]),
     (
         "map_Kd a.png",
         &["map_Kd absent.png", "map_Kd", "map_Kd -what a.png", "map_Kd C:\\maps\\a.png", "map_Kd junk.png"],
@@ -98,7 +103,7 @@ proptest! {
         library in any::<bool>(),
         more in ".{0,40}",
     ) {
-        let mut texts = [format!("{OBJ}{more}\n").into_bytes(), format!("{MTL}{more}\n").into_bytes()];
+        let mut texts = [format!("{OBJ}{MORE}{more}\n").into_bytes(), format!("{MTL}{more}\n").into_bytes()];
         let text = &mut texts[usize::from(library)];
         for (place, byte, kind) in mutations {
             let at = place.index(text.len());

@@ -129,6 +129,13 @@ fn polygons_without_a_proper_area() {
     let loaded = read(format!("{SQUARE}v 2 0 0\nf 1 2 1 2\n"), "");
     assert_error(loaded, "test.obj", "line 6", "no area; the face is left out; no face of the file can be drawn");
 
+    // A line of rounded positions.
+    let tilted: Vec<_> = [0.0, 1.0, 2.0, 3.5, 5.0].iter().map(|along| [along * 0.3, along * 0.7]).collect();
+    let text = |corners: usize| (1..=corners).fold("f".to_owned(), |face, corner| format!("{face} {corner}"));
+    let line: String = tilted.iter().map(|[x, y]| format!("v {x} {y} {}\n", x * 0.1_f32)).collect();
+    let loaded = read(format!("{line}{}\n{}\nv 1 0 0\nf 1 6 5\n", text(5), text(4)), "").unwrap();
+    assert_warnings(&loaded, &[("line 6", "no area; the face is left out (2 faces like this)")]);
+
     let bow_tie = read(format!("{SQUARE}f 1 3 2 4\n"), "").unwrap();
     assert_warnings(&bow_tie, &[("line 5", "its edges cross")]);
     assert_eq!(bow_tie.scene.triangle_count(), 2);

@@ -105,6 +105,18 @@ fn images_of_different_sizes_and_places() {
 }
 
 #[test]
+fn images_that_are_something_else() {
+    let folder = Folder::new();
+    folder.write("a.png", "version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n");
+    folder.write("b.png", "<!DOCTYPE html>");
+    folder.write("c.png", &png(1, 1, RED)[..40]);
+    folder.write("test.mtl", "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\nnewmtl c\nmap_Kd c.png\n");
+    let loaded = load(folder.write("test.obj", "mtllib test.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")).unwrap();
+    let expected = [("\"a\"", "is a Git LFS pointer"), ("\"b\"", "is an HTML page"), ("\"c\"", "cannot be decoded")];
+    assert_warnings(&loaded, &expected);
+}
+
+#[test]
 fn an_image_is_made_once() {
     let two = textured("map_Kd red.png\nmap_d mask.png\nnewmtl n\nmap_d mask.png\nmap_Kd red.png\nmap_Ke red.png\n");
     let names: Vec<_> = two.scene.images.iter().map(|image: &Image| (&*image.name, image.texels.len())).collect();

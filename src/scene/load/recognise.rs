@@ -55,10 +55,10 @@ const SIGNATURES: [(&[u8], &str); 16] = [
     (b"%PDF", "is a PDF document"),
 ];
 
-/// Whether bytes are no text at all: they hold zero bytes and control characters, as no encoding but UTF-16 does.
+/// Whether a text is none: it is full of control characters of ASCII, which all code pages have.
 #[cfg(feature = "obj")]
 pub(crate) fn is_binary(text: &str) -> bool {
-    let control = |c: char| c.is_control() && !matches!(c, '\t' | '\n' | '\r' | '\u{B}' | '\u{C}' | '\u{1A}');
+    let control = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\n' | '\r' | '\u{B}' | '\u{C}' | '\u{1A}');
     let looked_at = text.chars().take(4096);
     let (all, controls) = looked_at.fold((0, 0), |(all, controls), c| (all + 1, controls + usize::from(control(c))));
     controls * 20 > all

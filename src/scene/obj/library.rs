@@ -110,7 +110,8 @@ fn locate(statements: &[([String; 2], usize)], folder: &Folder<'_>, report: &mut
         let element = || format!("line {line}");
         // One name that may hold spaces, or several without. Exact names come first, which need no warning.
         let exact = |name: &str| folder.locate(name).ok().filter(|found| found.note.is_none());
-        let names: Vec<&str> = argument.split_whitespace().collect();
+        let quoted: Vec<&str> = argument.split('"').map(str::trim).filter(|name| !name.is_empty()).collect();
+        let names = if quoted.len() > 1 { quoted } else { argument.split_whitespace().collect() };
         let is_list = names.len() > 1 && names.iter().all(|name| name.to_lowercase().ends_with(".mtl"));
         let several = || names.iter().map(|name| exact(name)).collect::<Option<Vec<_>>>();
         let found = match exact(&argument).or_else(|| exact(&whole)) {

@@ -134,18 +134,22 @@ fn distinct(corners: &[[f32; 3]]) -> (Vec<u32>, Vec<DVec3>) {
 }
 
 /// Twice the vector area of a polygon, and whether it says where the front is. Where it cancels out, as that of a bow tie
-/// does, the largest part of it stands for it. `None` if there is no area at all.
+/// does, the largest part of it stands for it. `None` if there is no area but that of rounding errors.
 fn normal(ring: &[DVec3]) -> Option<(DVec3, bool)> {
+    /// Part of the square of its length that a line of `f32` positions has as an area.
+    const LINE: f64 = 1e-7;
     let parts = || ring.array_windows::<2>().map(|[a, b]| a.cross(*b));
     let sum: DVec3 = parts().sum();
     let whole: f64 = parts().map(DVec3::length).sum();
+    let square = ring.iter().map(|corner| corner.length_squared()).fold(0.0, f64::max);
+    if whole <= LINE * square {
+        return None;
+    }
     if sum.length() > NEGLIGIBLE * whole {
         return Some((sum, true));
     }
-    parts()
-        .max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
-        .filter(|&part| part != DVec3::ZERO)
-        .map(|part| (part, false))
+    let largest = parts().max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
+    Some((largest, false))
 }
 
 /// Drops the coordinate along which the plane is seen most squarely. The front turns counter-clockwise.

@@ -13,6 +13,7 @@ use super::map::{Channel, Map};
 use crate::scene::description::{Image, Texture, Wrap};
 use crate::scene::load::decode::decode;
 use crate::scene::load::folder::{Folder, Located};
+use crate::scene::load::recognise::foreign;
 use crate::scene::load::report::Report;
 
 /// Most texels that the images of one file may have together (4 GiB).
@@ -92,7 +93,11 @@ impl<'a> Textures<'a> {
         if let Some(&known) = self.by_path.get(&path) {
             return known.map(Raw);
         }
-        let decoded = self.folder.read(&path).and_then(|bytes| decode(short, &bytes));
+        let decoded = self.folder.read(&path).and_then(|bytes| {
+            // A pointer or a page is no broken image.
+            let kind = || foreign(&bytes).filter(|kind| !kind.ends_with("image"));
+            decode(short, &bytes).map_err(|reason| kind().map_or(reason, str::to_owned))
+        });
         let number = decoded.and_then(|image| self.reserve(image.texels.len()).map(|()| image)).map(|image| {
             self.files.push(image);
             self.files.len() - 1
