@@ -1,7 +1,7 @@
 #define_import_path asvgf::light
 
 #import asvgf::scene::{scene, load_light, texels}
-#import asvgf::surface::{Visible, Triangle, triangle_now, at}
+#import asvgf::surface::{Visible, Triangle, triangle_now, at, rounding_error}
 #import asvgf::color::luminance
 #import asvgf::material::{PI, surface_at}
 
@@ -89,7 +89,7 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         s.radiance = surface.emission;
         // A part in 10⁴ alone is less than the error of the light's plane, where that is far from the scene's centre and near to what it lights.
         let cosine = abs(dot(surface.geometric, s.direction));
-        s.reach = s.distance * SHORT - surface.margin / max(cosine, 1e-6);
+        s.reach = s.distance * SHORT - dot(abs(surface.geometric), rounding_error(t, v)) / max(cosine, 1e-6);
         s.density = emitter_density(index, t, s.direction, s.distance);
         s.has_area = true;
         return s;
