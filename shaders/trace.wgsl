@@ -98,13 +98,13 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 #endif
 #ifdef LIGHTS
 #ifndef SCATTERED_RAYS_ONLY
-        let light = sample_light(s.position, light_choice, light_u);
+        // From where the ray starts, as even that small step is much of the way to a light nearby.
+        let light = sample_light(origin, light_choice, light_u);
         let towards = scattering(s, light.direction);
         let arriving = towards.value * light.radiance;
         if light.density > 0.0 && max(max(arriving.x, arriving.y), arriving.z) > 0.0 {
             rays += 1u;
-            // Short of the light by one part in 10⁴, so that it does not shadow itself.
-            if !occluded(Ray(origin, light.direction), light.distance * 0.9999) {
+            if !occluded(Ray(origin, light.direction), light.reach) {
 #ifdef LIGHT_SAMPLES_ONLY
                 let weight = 1.0;
 #else

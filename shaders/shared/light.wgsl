@@ -6,7 +6,7 @@
 #import asvgf::packing::unpack_rgb
 #import asvgf::random::hash
 #endif
-#import asvgf::surface::{Visible, Triangle, triangle_now, at}
+#import asvgf::surface::{Visible, Triangle, triangle_now, at, rounding_error}
 #import asvgf::color::luminance
 #import asvgf::material::{PI, surface_at}
 
@@ -16,11 +16,16 @@ const POINT: u32 = 1u;
 const DIRECTIONAL: u32 = 2u;
 const ENVIRONMENT: u32 = 3u;
 
+// How much of the way to a light has to be free: all but a part in 10⁴, so that it does not shadow itself.
+const SHORT: f32 = 0.9999;
+
 // A way from a surface to a light.
 struct LightSample {
     // Unit direction towards the light, and how far it is.
     direction: vec3<f32>,
     distance: f32,
+    // How far a ray may go without meeting the light itself.
+    reach: f32,
     // Radiance (or intensity over squared distance) that arrives.
     radiance: vec3<f32>,
     // Solid-angle density, the choice of the light included. For a light without area the choice alone.
@@ -87,7 +92,11 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         let squared = max(dot(way, way), 1e-30);
         s.distance = sqrt(squared);
         s.direction = way / s.distance;
-        s.radiance = surface_at(v, t, weights, s.direction).emission;
+        let surface = surface_at(v, t, weights, s.direction);
+        s.radiance = surface.emission;
+        // A part in 10⁴ alone is less than the error of the light's plane, where that is far from the scene's centre and near to what it lights.
+        let cosine = abs(dot(surface.geometric, s.direction));
+        s.reach = s.distance * SHORT - dot(abs(surface.geometric), rounding_error(t, v)) / max(cosine, 1e-6);
         s.density = emitter_density(index, t, s.direction, s.distance);
         s.has_area = true;
         return s;
@@ -132,6 +141,7 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         let radius = sqrt(max(1.0 - y * y, 0.0));
         s.direction = vec3(radius * cos(azimuth), y, radius * sin(azimuth));
         s.distance = 1e30;
+        s.reach = s.distance;
         s.density = environment_density(s.radiance);
         s.has_area = true;
         return s;
@@ -144,6 +154,7 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
     if light.kind == DIRECTIONAL {
         s.direction = -light.axis;
         s.distance = 1e30;
+        s.reach = s.distance;
         s.radiance = light.intensity;
         return s;
     }
@@ -151,6 +162,7 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
     let squared = max(dot(way, way), 1e-30);
     s.distance = sqrt(squared);
     s.direction = way / s.distance;
+    s.reach = s.distance * SHORT;
     let ratio = s.distance / light.range;
     let fade = clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
     let cone = clamp(-dot(light.axis, s.direction) * light.spot_scale + light.spot_offset, 0.0, 1.0);

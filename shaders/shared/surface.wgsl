@@ -168,8 +168,9 @@ fn plane_margin(t: Triangle, normal: vec3<f32>, error: vec3<f32>) -> f32 {
     let edge_c = t.c - t.a;
     let area_normal = cross(edge_b, edge_c);
     // 1/sin of the angle at `a`: so much of a step do products of edges lose where they nearly cancel. No more than 16, for needles.
-    let thinness = length(edge_b) * length(edge_c) * inverseSqrt(max(dot(area_normal, area_normal), 1e-37));
-    return dot(abs(normal), error) * clamp(thinness, 1.0, 16.0);
+    let squared = dot(edge_b, edge_b) * dot(edge_c, edge_c) / max(dot(area_normal, area_normal), 1e-37);
+    let thinness = sqrt(clamp(squared, 1.0, 256.0));
+    return dot(abs(normal), error) * thinness;
 }
 
 // The nearest weights that are within a triangle by the error of its points, and by 2 millionths of its size at least. A ray that meets an

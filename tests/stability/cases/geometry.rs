@@ -2,10 +2,10 @@
 
 use super::furnace::{Furnace, ROUNDING, grey};
 use super::{Breaks, Case, Named, Worst};
-use crate::common::scenes::{before_corner, corner, quad};
+use crate::common::scenes::{before_corner, corner, emitter, quad};
 use crate::common::stage::Stage;
 use crate::common::statistics::mean;
-use asvgf::scene::{Mesh, Scene, Transform};
+use asvgf::scene::{Mesh, Node, Scene, Transform};
 use asvgf::{Camera, Settings, TracerSettings};
 use std::f32::consts::PI;
 
@@ -46,7 +46,7 @@ pub const CASES: &[Case] = &[
     },
     Case {
         name: "a corner in a large scene",
-        varied: "a floor and a wall 2, 4 and 16 km from the scene's centre",
+        varied: "a floor and a wall 2, 4 and 16 km from the scene's centre, under a sky and under a lamp 6 cm above the floor",
         quantity: "relative difference of the image's mean from that at the centre",
         bound: 5e-3,
         origin: "contact shadows narrower than the offset of rays are lost: some 10⁻⁶ of the distance",
@@ -278,27 +278,44 @@ fn opposite([x, y, z]: [f32; 3], copies: usize) -> Mesh {
 /// So few triangles that a software adapter tests each, and so many that it makes a tree of them.
 const FEW_AND_MANY: [usize; 2] = [1, 70];
 
-fn corner_off_centre(distance: f32) -> f64 {
-    let difference = |place: [f32; 3]| {
-        let mut meshes = corner(place);
-        meshes.push(opposite(place, 70));
-        corner_mean(grey(meshes), place.map(f64::from))
+/// What lights a corner.
+#[derive(Clone, Copy, Debug)]
+enum Lit {
+    BySky,
+    /// By a lamp that hangs low and is tilted.
+    ByLamp,
+}
+
+fn corner_off_centre(lit: Lit, distance: f32) -> f64 {
+    let lit_corner = |place: [f32; 3]| {
+        let mut scene = grey(corner(place));
+        if let Lit::ByLamp = lit {
+            scene.environment = None;
+            scene.materials.push(emitter([4.0; 3]));
+            let at = [place[0] - 0.25, place[1] + 0.0625, place[2] + 0.25];
+            scene.meshes.push(quad(at, [0.5, 0.125, 0.0], [0.0, 0.0625, 0.5], 1));
+            scene.nodes.push(Node { meshes: vec![2], ..Default::default() });
+        }
+        scene
     };
     // In no direction are all coordinates round.
-    let near = corner_mean(grey(corner([0.0; 3])), [0.0; 3]);
-    (difference([distance, 0.125 * distance, -0.5 * distance]) / near - 1.0).abs()
+    let place = [distance, 0.125 * distance, -0.5 * distance];
+    let mut scene = lit_corner(place);
+    scene.meshes.push(opposite(place, 70));
+    scene.nodes.push(Node { meshes: vec![scene.meshes.len() - 1], ..Default::default() });
+    (corner_mean(scene, place.map(f64::from)) / corner_mean(lit_corner([0.0; 3]), [0.0; 3]) - 1.0).abs()
 }
 
 fn corner_in_large_scene() -> Worst {
     let mut worst = Worst::default();
-    for distance in [2048.0, 4096.0, 16_384.0] {
-        worst.add(corner_off_centre(distance), || format!("{distance} m"));
+    for (lit, distance) in [2048.0, 4096.0, 16_384.0].into_iter().flat_map(|d| [(Lit::BySky, d), (Lit::ByLamp, d)]) {
+        worst.add(corner_off_centre(lit, distance), || format!("{lit:?}, {distance} m"));
     }
     worst
 }
 
 fn large_scene_break() -> String {
-    let found = (12..=24).map(|power| 2.0_f32.powi(power)).find(|&d| corner_off_centre(d) > 5e-3);
+    let found = (12..=24).map(|power| 2.0_f32.powi(power)).find(|&d| corner_off_centre(Lit::BySky, d) > 5e-3);
     found.map_or("none up to 16 000 km".into(), |d| format!("{:.0} km from the centre", d / 1000.0))
 }
 
