@@ -22,7 +22,7 @@ Scene
                                                                         [cornell]
   --animation NAME      name or number (from 0) of an animation, or static
                                   [built-in scenes: all; files: the first, if any]
-  --environment FILE    light from all around: .hdr, .exr, .png or .jpg, equirectangular;
+  --environment FILE    light from all around: HDR, EXR, PNG, JPEG …, equirectangular;
                         or sky, a cloudy one            [sky, if the scene has no light]
   --cull                leave out the back faces of materials that are not double-sided, as
                         rasterizers do

@@ -23,6 +23,7 @@ mod obj_faces;
 mod obj_maps;
 mod obj_materials;
 mod obj_normals;
+mod obj_oracle;
 mod obj_text;
 mod obj_wild;
 mod paths;
