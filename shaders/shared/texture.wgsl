@@ -97,9 +97,30 @@ fn cover_from(opacity: f32) {
     coverage = opacity;
 }
 
-fn passes_through(opacity: f32, row: u32, instance: u32) -> bool {
+// Whether a ray meets a triangle so near to an edge that it may meet the neighbour as well, and the point counts as the neighbour's. A
+// ray through the common edge would cover twice. The triangle along whose winding the edge ascends has it, which the other, with
+// the same two corners, goes along downwards.
+fn belongs_to_neighbour(row: u32, barycentrics: vec2<f32>) -> bool {
+    let near = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics) < vec3(4e-6);
+    if !any(near) {
+        return false;
+    }
+    let a = bitcast<vec3<f32>>(geometry_word(row * 3u).xyz);
+    let b = bitcast<vec3<f32>>(geometry_word(row * 3u + 1u).xyz);
+    let c = bitcast<vec3<f32>>(geometry_word(row * 3u + 2u).xyz);
+    return any(near & vec3(descends(b, c), descends(c, a), descends(a, b)));
+}
+
+fn descends(a: vec3<f32>, b: vec3<f32>) -> bool {
+    return b.x < a.x || (b.x == a.x && (b.y < a.y || (b.y == a.y && b.z < a.z)));
+}
+
+fn passes_through(opacity: f32, row: u32, instance: u32, barycentrics: vec2<f32>) -> bool {
     if opacity <= 0.0 || opacity >= 1.0 {
         return opacity <= 0.0;
+    }
+    if belongs_to_neighbour(row, barycentrics) {
+        return true;
     }
     is_blended = true;
     let number = f32(hash(coverage_seed ^ hash(row ^ hash(instance))) >> 8u) * (1.0 / 16777216.0);
@@ -129,7 +150,7 @@ fn is_hole(row: u32, instance: u32, barycentrics: vec2<f32>, back: bool) -> bool
 #endif
 #ifdef ALPHA_BLEND
     if (material.flags & BLENDED) != 0u {
-        return passes_through(opacity, row, instance);
+        return passes_through(opacity, row, instance, barycentrics);
     }
 #endif
     return opacity < material.cutoff;

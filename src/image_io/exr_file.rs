@@ -5,7 +5,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use exr::meta::MetaData;
-use exr::meta::attribute::{AttributeValue, Chromaticities};
+use exr::meta::attribute::{AttributeValue, Chromaticities, EnvironmentMap};
 use exr::meta::header::{ImageAttributes, LayerAttributes};
 use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatImage, FlatSamples, Image, IntegerBounds, Layer, ReadChannels as _,
@@ -195,6 +195,12 @@ impl ExrFile {
     pub fn chromaticities(&self) -> Option<[[f32; 2]; 4]> {
         let Chromaticities { red, green, blue, white } = self.image.attributes.chromaticities?;
         Some([red, green, blue, white].map(|Vec2(x, y)| [x, y]))
+    }
+
+    /// Whether the file says that it holds the six faces of a cube.
+    pub(crate) fn is_cube_map(&self) -> bool {
+        let cube = |layer: &Layer<_>| layer.attributes.environment_map == Some(EnvironmentMap::Cube);
+        self.image.layer_data.iter().any(cube)
     }
 
     /// Width over height of a pixel.

@@ -89,9 +89,11 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     ][..];
     let images = &["exists", "sample_texture", "srgb_to_linear", "texel", "texture_coordinates", "wrap"][..];
     let opacity = &[
+        "belongs_to_neighbour",
         "cover_at_random",
         "coverage",
         "coverage_seed",
+        "descends",
         "is_blended",
         "is_hole",
         "meets_back",
@@ -115,7 +117,16 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         (Traits { alpha_mask: false, alpha_blend: false, ..ALL }, opacity),
         (
             Traits { alpha_blend: false, ..ALL },
-            &["cover_at_random", "coverage", "coverage_seed", "is_blended", "passes_through", "start_of_path"],
+            &[
+                "belongs_to_neighbour",
+                "cover_at_random",
+                "coverage",
+                "coverage_seed",
+                "descends",
+                "is_blended",
+                "passes_through",
+                "start_of_path",
+            ],
         ),
         (Traits { emitters: false, ..ALL }, &["emitter_density"]),
         (Traits { punctual_lights: false, ..ALL }, &[]),

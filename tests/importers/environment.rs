@@ -61,8 +61,7 @@ fn luminance_and_chroma_are_colours() {
 /// Rows 2 and 3 of a picture of four rows, in these primaries.
 fn write_exr_with(path: &std::path::Path, color: [f32; 3], chromaticities: Option<Chromaticities>) {
     use exr::prelude::*;
-    let mut attributes = LayerAttributes::default();
-    attributes.layer_position = Vec2(0, 2);
+    let attributes = LayerAttributes { layer_position: Vec2(0, 2), ..LayerAttributes::default() };
     let channels = SpecificChannels::rgb(|_: Vec2<usize>| (color[0], color[1], color[2]));
     let mut image = Image::from_layer(Layer::new((2, 2), attributes, Encoding::UNCOMPRESSED, channels));
     image.attributes.display_window = IntegerBounds::from_dimensions((2, 4));

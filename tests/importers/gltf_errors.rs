@@ -50,7 +50,6 @@ fn accessors_that_do_not_fit() {
     broken(set("/accessors/0/count", json!(u64::MAX)), "POSITION", "do not fit");
     broken(set("/accessors/0/byteOffset", json!(u64::MAX - 4)), "POSITION", "do not fit");
     broken(set("/accessors/0/byteOffset", json!(4)), "POSITION", "from byte 4 on");
-    broken(set("/bufferViews/0/byteLength", json!(1000)), "bufferViews[0]", "1000 bytes from 0 on");
     broken(set("/bufferViews/0/byteOffset", json!(u64::MAX)), "bufferViews[0]", "not within its buffer");
     broken(set("/bufferViews/0/byteStride", json!(8)), "POSITION", "12 bytes do not fit a stride of 8");
     broken(set("/bufferViews/0/byteStride", json!(16)), "POSITION", "do not fit");
@@ -87,7 +86,6 @@ fn sparse_accessors_that_are_wrong() {
             });
         }
     };
-    broken(sparse([0, 2, 1], U16), "POSITION", "do not increase");
     broken(sparse([0, 1, 9], U16), "POSITION", "index 9 is out of range of 3");
     broken(sparse([0, 1, 2], F32), "POSITION", "not an unsigned integer");
 }
@@ -156,7 +154,7 @@ fn buffers_that_are_wrong() {
     let buffers = |buffer: Value| set("/buffers", json!([buffer]));
     broken(buffers(json!({"byteLength": 4, "uri": "absent.bin"})), "buffers[0]", "\"absent.bin\" cannot be read");
     broken(buffers(json!({"byteLength": 4})), "buffers[0]", "neither a uri nor");
-    broken(buffers(json!({"byteLength": 9, "uri": "data:;base64,AAAA"})), "bufferViews[0]", "its buffer of 3 bytes");
+    broken(buffers(json!({"byteLength": 9, "uri": "data:;base64,AAAA"})), "POSITION", "do not fit the 3 bytes");
     broken(buffers(json!({"byteLength": 1, "uri": "data:;base64,?"})), "buffers[0]", "not base64");
     broken(buffers(json!({"byteLength": 1, "uri": "data:text/plain"})), "buffers[0]", "not of the form");
     broken(buffers(json!({"byteLength": 1, "uri": "data:text/plain,%zz"})), "buffers[0]", "not percent-encoded");

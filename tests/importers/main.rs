@@ -29,4 +29,5 @@ mod obj_wild;
 mod paths;
 mod properties;
 mod scene;
+mod strangers;
 mod wild;

@@ -59,7 +59,7 @@ fn textures_with_options() {
     let texture = material.base_color_texture.unwrap();
     assert_eq!(loaded.scene.images.len(), 1);
     assert_eq!(loaded.scene.images[texture.image].texels, [[1, 2, 3, 4]; 4]);
-    assert_eq!((texture.wrap, material.alpha), ([Wrap::Clamp; 2], Alpha::Mask(0.5)));
+    assert_eq!((texture.wrap, material.alpha), ([Wrap::Clamp; 2], Alpha::Blend));
     assert_eq!((material.base_color, material.emissive), ([1.0; 4], [1.0; 3]));
     // (u, v) = (0.1, 0.2) with v upwards is (0.1, 0.8) here; it maps to (0.7, 0.85) upwards.
     let at = texture.transform.map(|row| row[0] * 0.1 + row[1] * 0.8 + row[2]);
@@ -71,13 +71,13 @@ fn opacity_of_a_file_of_its_own() {
     let mask = textured("Kd 1 1 1\nmap_Kd red.png\nmap_d mask.png\n");
     assert_warnings(&mask, &[]);
     assert_eq!(base(&mask), [[200, 10, 20, 0], RED]);
-    assert_eq!((mask.scene.materials[0].alpha, mask.scene.images.len()), (Alpha::Mask(0.5), 1));
+    assert_eq!((mask.scene.materials[0].alpha, mask.scene.images.len()), (Alpha::Blend, 1));
     let alone = textured("Kd 0 1 0\nmap_d mask.png\n");
     assert_eq!(base(&alone), [[255, 255, 255, 0], WHITE]);
     assert_eq!(alone.scene.materials[0].base_color, [0.0, 1.0, 0.0, 1.0]);
     // The same file: its alpha channel where it has one, otherwise what it shows.
     let leaf = textured("map_Kd leaf.png\nmap_d leaf.png\n");
-    assert_eq!((base(&leaf), leaf.scene.materials[0].alpha), (vec![[200, 10, 20, 0], RED], Alpha::Mask(0.5)));
+    assert_eq!((base(&leaf), leaf.scene.materials[0].alpha), (vec![[200, 10, 20, 0], RED], Alpha::Blend));
     let grey = textured("map_Kd mask.png\nmap_d mask.png\n");
     assert_eq!(base(&grey), [[0; 4], WHITE]);
     assert_warnings(&grey, &[]);

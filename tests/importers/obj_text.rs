@@ -113,7 +113,7 @@ fn decimal_commas() {
 #[test]
 fn files_that_are_something_else() {
     let zip = [b"PK\x03\x04".as_slice(), &[0; 100]].concat();
-    let stl = [b"made by hand".as_slice(), &[0; 100]].concat();
+    let stl = [b"made by ".as_slice(), &[0; 100], b"hand"].concat();
     let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 12345\n";
     let files: [(&[u8], &str); 14] = [
         (pointer, "is a Git LFS pointer"),

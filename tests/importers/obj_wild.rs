@@ -53,7 +53,7 @@ fn files_in_the_wild() {
     for name in ["mapd", "mapd_alone", "mapd_same_grey"] {
         let loaded = read(name);
         assert_warnings(&loaded, &[]);
-        assert_eq!(loaded.scene.materials[0].alpha, Alpha::Mask(0.5), "{name}");
+        assert_eq!(loaded.scene.materials[0].alpha, Alpha::Blend, "{name}");
         let texels = loaded.scene.images.iter().flat_map(|image| &image.texels);
         assert!(texels.clone().any(|texel| texel[3] == 0) && texels.clone().any(|texel| texel[3] == 255), "{name}");
     }

@@ -9,6 +9,11 @@ pub(super) const REC_709: [[f64; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.
 const BRADFORD: DMat3 =
     DMat3::from_cols_array(&[0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296]);
 
+/// Whether primaries are visibly others than those of Rec. 709.
+pub(super) fn differ(primaries: [[f64; 2]; 4]) -> bool {
+    primaries.as_flattened().iter().zip(REC_709.as_flattened()).any(|(a, b)| (a - b).abs() > 1e-3)
+}
+
 /// X, Y and Z of a chromaticity of luminance 1.
 fn tristimulus([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x / y, 1.0, (1.0 - x - y) / y)

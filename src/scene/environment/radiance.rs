@@ -8,12 +8,12 @@ use std::io::Cursor;
 use image::{ImageFormat, ImageReader};
 
 use super::Picture;
-use super::primaries::{to_rec_709, xyz_to_rec_709};
+use super::primaries::{differ, to_rec_709, xyz_to_rec_709};
 use crate::image_io::limits;
 use crate::scene::description::Environment;
 
 /// Longest header that is looked through.
-const LONGEST: usize = 1 << 16;
+const LONGEST: usize = 1 << 20;
 
 /// What a header says.
 struct Header {
@@ -62,7 +62,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, String> {
         if let Some(map) = xyz_to_rec_709(EQUAL_ENERGY) {
             radiance.iter_mut().for_each(|color| *color = map(*color));
         }
-    } else if let Some(primaries) = header.primaries {
+    } else if let Some(primaries) = header.primaries.filter(|&primaries| differ(primaries)) {
         match to_rec_709(primaries) {
             Some(map) => radiance.iter_mut().for_each(|color| *color = map(*color)),
             None => warnings.push(format!("the primaries {primaries:?} span no colours; they are taken for Rec. 709")),
@@ -85,7 +85,9 @@ fn parse(bytes: &[u8]) -> Result<Header, String> {
     let mut variables = true;
     for line in start.split_inclusive(|&byte| byte == b'\n') {
         header.end += line.len();
-        let Ok(line) = std::str::from_utf8(line) else { break };
+        let length = line.len();
+        // Names of people are in any encoding.
+        let line = String::from_utf8_lossy(line);
         let line = line.trim_end_matches(['\r', '\n']);
         if !variables {
             header.resolution(line).ok_or_else(|| format!("\"{line}\" is not the size of a Radiance picture"))?;
@@ -93,7 +95,7 @@ fn parse(bytes: &[u8]) -> Result<Header, String> {
         }
         if line.is_empty() {
             variables = false;
-        } else if header.end == line.len() + 1 && header.resolution(line).is_some() {
+        } else if header.end == length && header.resolution(line).is_some() {
             break; // a size in the first line: no header at all
         } else if !line.starts_with('#') {
             header.variable(line)?;

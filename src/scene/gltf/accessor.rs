@@ -26,8 +26,8 @@ pub(super) struct Elements<'a> {
     normalized: bool,
     /// All elements; `None` are zeros.
     dense: Option<Strided<'a>>,
-    /// Elements that replace those above, by increasing index.
-    sparse: Option<(Vec<u32>, Strided<'a>)>,
+    /// Elements that replace those above: by increasing index, each with its place among the values.
+    sparse: Option<(Vec<(u32, usize)>, Strided<'a>)>,
 }
 
 impl<'a> Elements<'a> {
@@ -132,9 +132,10 @@ impl<'a> Elements<'a> {
 
     fn bytes(&self, index: usize) -> Option<&'a [u8]> {
         if let Some((replaced, values)) = &self.sparse
-            && let Ok(position) = u32::try_from(index).map_or(Err(0), |index| replaced.binary_search(&index))
+            && let Ok(index) = u32::try_from(index)
+            && let Ok(found) = replaced.binary_search_by_key(&index, |&(replaced, _)| replaced)
         {
-            return values.get(position);
+            return values.get(replaced.get(found)?.1);
         }
         self.dense.as_ref()?.get(index)
     }
@@ -207,7 +208,7 @@ fn open_sparse<'a>(
     count: u64,
     size: usize,
     user: &str,
-) -> Result<(Vec<u32>, Strided<'a>), Unopened> {
+) -> Result<(Vec<(u32, usize)>, Strided<'a>), Unopened> {
     let reason = |reason: String| Unopened::Reason(format!("sparse: {reason}"));
     let replaced = sparse.count.0;
     if replaced > count {
@@ -221,12 +222,13 @@ fn open_sparse<'a>(
     let raw = Strided::open(source, indices.buffer_view, indices.byte_offset.0, replaced, index_size, user)?;
     let values = Strided::open(source, values.buffer_view, values.byte_offset.0, replaced, size, user)?;
     // Bounded: all of them have been found in the file.
-    let indices: Vec<u32> = (0..).map_while(|index| raw.get(index)).map(unsigned).collect();
-    if !indices.is_sorted_by(|earlier, later| earlier < later) {
-        return Err(reason("its indices do not increase".into()));
-    }
+    let mut indices: Vec<(u32, usize)> = (0..).map_while(|place| Some((unsigned(raw.get(place)?), place))).collect();
+    // The specification asks for indices that increase; of equal ones the last value counts.
+    indices.reverse();
+    indices.sort_by_key(|&(index, _)| index);
+    indices.dedup_by_key(|(index, _)| *index);
     match indices.last() {
-        Some(&last) if u64::from(last) >= count => Err(reason(format!("index {last} is out of range of {count}"))),
+        Some(&(last, _)) if u64::from(last) >= count => Err(reason(format!("index {last} is out of range of {count}"))),
         _ => Ok((indices, values)),
     }
 }

@@ -82,11 +82,8 @@ impl<'a> Vertices<'a> {
     pub fn colors(&self, report: &mut Report) -> Vec<[f32; 4]> {
         let Some(accessor) = self.attribute(Semantic::Colors(0)) else { return Vec::new() };
         let user = format!("{}.attributes.COLOR_0", self.element);
-        let opened = self.open(accessor, Type::Vec4, REAL, &user).or_else(|fault| {
-            // The message is that about four components, because most files have them.
-            self.open(accessor, Type::Vec3, REAL, &user).map_err(|_| fault)
-        });
-        let elements = match opened {
+        let three = self.source.get(accessor, &user).is_ok_and(|accessor| accessor.type_ == Checked::Valid(Type::Vec3));
+        let elements = match self.open(accessor, if three { Type::Vec3 } else { Type::Vec4 }, REAL, &user) {
             Ok(elements) => elements,
             Err(fault) => {
                 report.replace(fault, "white is used");

@@ -29,7 +29,8 @@ pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder<'_>, 
     let mut read = |(index, buffer): (usize, &gltf::json::Buffer)| {
         let element = format!("buffers[{index}]");
         let fault = |reason: String| Fault::new(&element, reason);
-        let bytes: Rc<[u8]> = match (&buffer.uri, binary) {
+        let uri = buffer.uri.as_ref().filter(|uri| !uri.is_empty());
+        let bytes: Rc<[u8]> = match (uri, binary) {
             (Some(uri), _) => match data_uri(uri) {
                 Some(bytes) => bytes.map_err(fault)?.into(),
                 None => {

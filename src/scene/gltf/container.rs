@@ -1,6 +1,7 @@
 //! From bytes to JSON: the GLB container, the version and the extensions of a file.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 use gltf::json::Root;
 use serde_json::Value;
@@ -57,14 +58,22 @@ fn split<'a>(bytes: &'a [u8], report: &mut Report) -> Result<(&'a [u8], Option<&
     let is_chunk = |at: usize| matches!(bytes.get(at + 4..at + 8), Some(b"JSON" | b"BIN\0"));
     let mut chunks = Vec::new();
     let mut at = 12;
-    while at < length.min(bytes.len()) {
-        let size = word(at)? as usize;
-        let kind = word(at + 4)?.to_le_bytes();
+    // Writers that stream leave a length of 0, others count the first chunk alone.
+    while at < length.min(bytes.len()) || is_chunk(at) {
+        let size = word(at).map(|size| size as usize);
+        let kind = word(at + 4).map(u32::to_le_bytes);
         let start = at + 8;
-        let chunk = start.checked_add(size).and_then(|end| bytes.get(start..end)).ok_or_else(|| {
-            Fault::new(format!("GLB chunk {}", chunks.len()), format!("{size} bytes from {start} on are past the end"))
-        })?;
-        chunks.push((kind, chunk));
+        let chunk = size.as_ref().ok().and_then(|&size| bytes.get(start..start.checked_add(size)?));
+        let (Ok(size), Ok(kind), Some(chunk)) = (&size, &kind, chunk) else {
+            if !chunks.is_empty() && !is_chunk(at) {
+                break; // bytes behind the last chunk
+            }
+            size.as_ref().map_err(Fault::clone)?;
+            kind.as_ref().map_err(Fault::clone)?;
+            let reason = format!("{} bytes from {start} on are past the end", size.unwrap_or_default());
+            return Err(Fault::new(format!("GLB chunk {}", chunks.len()), reason));
+        };
+        chunks.push((*kind, chunk));
         // Some writers leave the padding out.
         let unpadded = start + size;
         at = if is_chunk(unpadded) { unpadded } else { start + size.next_multiple_of(4) };
@@ -94,8 +103,15 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
     if let Ok(root) = Root::from_slice(json) {
         return Ok(root);
     }
+    let first = || serde_json::Deserializer::from_slice(json).into_iter::<Value>().next();
     let mut value = match serde_json::from_slice(json) {
         Ok(value) => value,
+        Err(error)
+            if error.to_string().starts_with("trailing characters") && first().is_some_and(|first| first.is_ok()) =>
+        {
+            report.warn("JSON", format!("{error}; they are left out"));
+            first().and_then(Result::ok).unwrap_or_default()
+        }
         Err(error) => {
             let text = decoded.map_or_else(|| String::from_utf8_lossy(json), Cow::Owned);
             let value = serde_json::from_str(&tidy(&text)).map_err(|_| match foreign(json) {
@@ -129,7 +145,7 @@ fn check_kind(root: &mut Value, report: &mut Report) -> Result<(), Fault> {
     let first = lists.iter().any(|&list| root.get(list).is_some_and(Value::is_object));
     match version {
         Some(Value::String(version)) if !version.starts_with('1') && !first => return Ok(()),
-        Some(Value::Number(number)) if number.as_f64() == Some(2.0) => {
+        Some(Value::Number(number)) if number.as_f64().is_some_and(|number| (2.0..3.0).contains(&number)) => {
             report.warn("asset.version", "is a number; it is read as 2.0");
         }
         None if !first && lists.iter().all(|&list| root.get(list).is_some_and(Value::is_array)) => {
@@ -150,14 +166,22 @@ fn check_kind(root: &mut Value, report: &mut Report) -> Result<(), Fault> {
 fn check_version(root: &Root) -> Result<(), Fault> {
     let asset = &root.asset;
     // A later minor version is readable, unless the file says that it is not.
-    let readable = match &asset.min_version {
-        Some(minimum) => minimum == "2.0",
-        None => asset.version.split('.').next() == Some("2"),
+    let number = |version: &str| version.trim().trim_start_matches(['v', 'V']).parse::<f32>().ok();
+    let readable = match asset.min_version.as_deref().and_then(number) {
+        Some(minimum) => minimum <= 2.0,
+        None => number(&asset.version).is_some_and(|version| (2.0..3.0).contains(&version)),
     };
     if readable {
         return Ok(());
     }
-    Err(Fault::new("asset.version", format!("{}; only glTF 2.0 is read", asset.version)))
+    Err(Fault::new(
+        "asset.version",
+        format!(
+            "{} needs glTF {}; only 2.0 is read",
+            asset.version,
+            asset.min_version.as_deref().unwrap_or(&asset.version)
+        ),
+    ))
 }
 
 fn check_extensions(root: &Root, report: &mut Report) -> Result<(), Fault> {
@@ -167,7 +191,11 @@ fn check_extensions(root: &Root, report: &mut Report) -> Result<(), Fault> {
             return Err(Fault::new(element, format!("{name} is not supported; supported are {}", READ.join(", "))));
         }
     }
-    for name in &root.extensions_used {
+    // Extensions that a file uses without saying so are as good as the others.
+    let materials = root.materials.iter().filter_map(|material| Some(&material.extensions.as_ref()?.others));
+    let nodes = root.nodes.iter().filter_map(|node| Some(&node.extensions.as_ref()?.others));
+    let undeclared: BTreeSet<&String> = materials.chain(nodes).flat_map(|others| others.keys()).collect();
+    for name in root.extensions_used.iter().chain(undeclared) {
         if !READ.contains(&name.as_str()) {
             report.warn_once(format!("extension {name}"), format!("{name} is not read; the file is drawn without it"));
         }

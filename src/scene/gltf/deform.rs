@@ -6,7 +6,8 @@ use std::rc::Rc;
 use glam::{DMat4, Mat3, Mat4, Vec3, Vec4};
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::Semantic;
-use gltf::json::{Index, Skin as SkinSource};
+use gltf::json::validation::Checked;
+use gltf::json::{Index, Mesh as MeshSource, Skin as SkinSource};
 
 use super::accessor::{Elements, REAL};
 use super::attributes::Vertices;
@@ -94,12 +95,25 @@ impl Deformation {
             }
         }
         if let Some(skin) = &self.skin {
-            match Influences::open(vertices) {
+            match Influences::open(vertices, report) {
                 Ok(influences) => influences.bend(skin, vertices, mesh, report),
-                Err(fault) => report.replace(fault, "the mesh is drawn where its first joint is"),
+                // The node of a skinned mesh places nothing.
+                Err(fault) => report.replace(fault, "the primitive is drawn where its first joint is"),
             }
         }
     }
+}
+
+/// Whether all primitives of a mesh have joints and weights that can be read. Otherwise the mesh is drawn where its node is.
+pub(super) fn check_influences(source: &Source<'_>, mesh: &MeshSource, element: &str) -> Result<(), Fault> {
+    for (number, primitive) in mesh.primitives.iter().enumerate() {
+        let position = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
+        let Some(accessor) = position.and_then(|&position| source.get(position, "").ok()) else { continue };
+        let count = usize::try_from(accessor.count.0).unwrap_or(usize::MAX);
+        let element = format!("{element}.primitives[{number}]");
+        Influences::set(&Vertices { source, primitive, count, kept: &[], element: &element }, 0)?;
+    }
+    Ok(())
 }
 
 /// Adds a weighted morph target. Targets that the primitive has not got are 0.
@@ -129,36 +143,50 @@ struct Influences<'a> {
 }
 
 impl<'a> Influences<'a> {
-    fn open(vertices: &Vertices<'a>) -> Result<Self, Fault> {
-        const JOINT: &[ComponentType] = &[ComponentType::U8, ComponentType::U16];
-        let mut sets = Vec::new();
-        for set in 0..MOST_SETS {
-            let joints = vertices.attribute(Semantic::Joints(set));
-            let (Some(joints), Some(weights)) = (joints, vertices.attribute(Semantic::Weights(set))) else { break };
-            let user = |name: &str| format!("{}.attributes.{name}_{set}", vertices.element);
-            sets.push((
-                vertices.open(joints, Type::Vec4, JOINT, &user("JOINTS"))?,
-                vertices.open(weights, Type::Vec4, REAL, &user("WEIGHTS"))?,
-            ));
-        }
-        if sets.is_empty() {
-            return Err(Fault::new(format!("{}.attributes", vertices.element), "there are no JOINTS_0 and WEIGHTS_0"));
+    fn open(vertices: &Vertices<'a>, report: &mut Report) -> Result<Self, Fault> {
+        let mut sets = vec![Self::set(vertices, 0)?];
+        for set in 1..MOST_SETS {
+            if vertices.attribute(Semantic::Joints(set)).is_none() {
+                break;
+            }
+            match Self::set(vertices, set) {
+                Ok(opened) => sets.push(opened),
+                Err(fault) => report.replace(fault, "these joints are left out"),
+            }
         }
         Ok(Self { sets })
     }
 
+    /// Joints and weights of one set.
+    fn set(vertices: &Vertices<'a>, set: u32) -> Result<(Elements<'a>, Elements<'a>), Fault> {
+        const JOINT: &[ComponentType] = &[ComponentType::U8, ComponentType::U16];
+        let user = |name: &str| format!("{}.attributes.{name}_{set}", vertices.element);
+        let open = |name: &str, semantic: Semantic, components: &[ComponentType]| {
+            let accessor = vertices.attribute(semantic);
+            let accessor = accessor.ok_or_else(|| Fault::new(user(name), "is not there, and the mesh has a skin"))?;
+            vertices.open(accessor, Type::Vec4, components, &user(name))
+        };
+        Ok((open("JOINTS", Semantic::Joints(set), JOINT)?, open("WEIGHTS", Semantic::Weights(set), REAL)?))
+    }
+
     /// Linear blend skinning (Magnenat-Thalmann et al. 1988): Σ wⱼ Mⱼ p, with weights whose sum is made 1. A vertex without
-    /// weights follows the first joint.
+    /// weights follows its first joint. Where the joints mirror, triangles are turned over, so that their front stays the front.
     fn bend(&self, skin: &Skin, vertices: &Vertices<'_>, mesh: &mut Mesh, report: &mut Report) {
         let mut foreign = 0;
+        let mut unweighted = 0;
+        let mut mirrored = 0;
         for (place, &vertex) in vertices.kept.iter().enumerate() {
             let mut sum = Mat4::ZERO;
             let mut total = 0.0;
+            let mut first = None;
             for (joints, weights) in &self.sets {
                 let joints: [u32; 4] = joints.integers(vertex as usize);
                 let weights = Vec4::from(weights.normalized::<4>(vertex as usize));
                 for (joint, weight) in joints.into_iter().zip(weights.to_array()) {
-                    if !(weight > 0.0 && weight.is_finite()) {
+                    if first.is_none() {
+                        first = skin.joints.get(joint as usize);
+                    }
+                    if weight == 0.0 || !weight.is_finite() {
                         continue;
                     }
                     match skin.joints.get(joint as usize) {
@@ -170,7 +198,13 @@ impl<'a> Influences<'a> {
                     }
                 }
             }
-            let matrix = if total > 0.0 { sum * (1.0 / total) } else { skin.joints[0] };
+            let matrix = if total > 1e-6 {
+                sum * (1.0 / total)
+            } else {
+                unweighted += 1;
+                first.copied().unwrap_or(skin.joints[0])
+            };
+            mirrored += usize::from(matrix.determinant() < 0.0);
             if let Some(position) = mesh.positions.get_mut(place) {
                 *position = matrix.transform_point3((*position).into()).to_array();
             }
@@ -182,6 +216,13 @@ impl<'a> Influences<'a> {
                 // Joints in centimetres make them small; a length far from 1 would count as no direction.
                 *normal = (cofactors * Vec3::from(*normal)).normalize_or_zero().to_array();
             }
+        }
+        if 2 * mirrored > vertices.kept.len() {
+            mesh.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+        }
+        if unweighted > 0 {
+            let reason = format!("{unweighted} vertices have no weights above 0; they follow their first joints");
+            report.warn(format!("{}.attributes.WEIGHTS_0", vertices.element), reason);
         }
         if foreign > 0 {
             let joints = skin.joints.len();

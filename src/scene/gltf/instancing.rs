@@ -10,7 +10,7 @@ use super::source::Source;
 use crate::scene::description::Transform;
 use crate::scene::load::report::{Fault, Report};
 
-/// Most instances of one node. Attributes without data would cost a file nothing.
+/// Most instances of one file. Attributes without data would cost a file nothing, and nodes may share them.
 const MOST: usize = 1 << 20;
 
 /// Where the instances of a node are, relative to it; `None` for a node that is placed once.
@@ -18,11 +18,13 @@ pub(super) fn instances(
     source: &Source<'_>,
     node: &NodeSource,
     element: &str,
+    placed: &mut usize,
     report: &mut Report,
 ) -> Option<Vec<Transform>> {
     let extension = node.extensions.as_ref()?.others.get("EXT_mesh_gpu_instancing")?;
-    match read(source, extension, &format!("{element}.EXT_mesh_gpu_instancing")) {
+    match read(source, extension, &format!("{element}.EXT_mesh_gpu_instancing"), MOST - *placed) {
         Ok((transforms, broken)) => {
+            *placed += transforms.len();
             if broken > 0 {
                 let reason = format!("{broken} instances are not finite; they are not drawn");
                 report.warn(format!("{element}.EXT_mesh_gpu_instancing"), reason);
@@ -36,7 +38,7 @@ pub(super) fn instances(
     }
 }
 
-fn read(source: &Source<'_>, extension: &Value, element: &str) -> Result<(Vec<Transform>, usize), Fault> {
+fn read(source: &Source<'_>, extension: &Value, element: &str, most: usize) -> Result<(Vec<Transform>, usize), Fault> {
     let attribute = |name: &str, shape: Type, components: &[ComponentType]| {
         let user = format!("{element}.attributes.{name}");
         let Some(accessor) = extension.pointer(&format!("/attributes/{name}")) else { return Ok(None) };
@@ -51,8 +53,8 @@ fn read(source: &Source<'_>, extension: &Value, element: &str) -> Result<(Vec<Tr
     let Some(&count) = lengths.first() else {
         return Err(Fault::new(format!("{element}.attributes"), "has none of TRANSLATION, ROTATION and SCALE"));
     };
-    if lengths.iter().any(|&length| length != count) || count > MOST {
-        let reason = format!("the attributes have {lengths:?} elements: as many each, and {MOST} at most, are read");
+    if lengths.iter().any(|&length| length != count) || count > most {
+        let reason = format!("the attributes have {lengths:?} elements: as many each, and {MOST} in a file, are read");
         return Err(Fault::new(format!("{element}.attributes"), reason));
     }
     let mut broken = 0;

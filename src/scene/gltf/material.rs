@@ -47,6 +47,7 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
     let emissive_texture = images.texture(&source.emissive_texture, &format!("{element}.emissiveTexture"), report);
     let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
+    let strength = if strength >= 0.0 { strength } else { f32::NAN };
     let emissive = source.emissive_factor.0.map(|factor| factor * strength);
     let common = Material {
         name: source.name.clone().unwrap_or_default(),
@@ -58,10 +59,16 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
         ..Material::default()
     };
     match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
-        Some(extension) => glossiness::read(extension, common, element, images, report),
+        Some(extension) => {
+            if extensions.is_some_and(|extensions| extensions.transmission.is_some()) {
+                let reason = "is not read beside KHR_materials_pbrSpecularGlossiness; the surface is opaque";
+                report.warn(format!("{element}.KHR_materials_transmission"), reason);
+            }
+            glossiness::read(extension, common, element, images, report)
+        }
         None => {
             let material = metallic_roughness(source, common, element, images, report);
-            transmission::apply(source, material, element, report)
+            transmission::apply(source, material, element, images, report)
         }
     }
 }

@@ -12,11 +12,14 @@ use serde_path_to_error::{Path, Segment, deserialize};
 use crate::scene::load::report::{Fault, Report};
 
 /// Most values that are removed from one element before the element itself is given up.
-const MOST: usize = 32;
+const MOST: usize = 256;
 
 /// The root of a file whose JSON is not that of glTF 2.0 everywhere.
 pub(super) fn mend(mut root: Value, report: &mut Report) -> Result<Root, Fault> {
     whole_numbers(&mut root);
+    if remove_absent(&mut root) {
+        report.warn_once("JSON", "an index of -1 is read as no index");
+    }
     if remove_foreign_channels(&mut root) {
         report.warn_once("animations", "channels that do not move a node are not read");
     }
@@ -214,6 +217,22 @@ fn whole_numbers(value: &mut Value) {
         Value::Array(list) => list.iter_mut().for_each(whole_numbers),
         Value::Object(members) => members.values_mut().for_each(whole_numbers),
         _ => {}
+    }
+}
+
+/// Removes indices of −1, by which some writers say that there is none. Tells whether there were any.
+fn remove_absent(value: &mut Value) -> bool {
+    const INDICES: [&str; 9] =
+        ["material", "mesh", "skin", "camera", "sampler", "source", "skeleton", "scene", "inverseBindMatrices"];
+    match value {
+        Value::Array(list) => list.iter_mut().fold(false, |any, element| remove_absent(element) | any),
+        Value::Object(members) => {
+            let before = members.len();
+            members.retain(|name, value| value.as_i64() != Some(-1) || !INDICES.contains(&name.as_str()));
+            let removed = members.len() < before;
+            members.values_mut().fold(removed, |any, value| remove_absent(value) | any)
+        }
+        _ => false,
     }
 }
 

@@ -20,10 +20,14 @@ use crate::scene::load::report::{Fault, Report};
 /// size of the file alone does not bound them.
 const MAX_TRIANGLES: usize = 1 << 26;
 
+/// Most vertices likewise: accessors without data cost a file nothing.
+const MAX_VERTICES: usize = 1 << 27;
+
 /// The meshes of a file, as far as they were asked for.
 pub(super) struct Meshes<'a> {
     source: &'a Source<'a>,
     triangles: usize,
+    vertices: usize,
     default_material: Option<usize>,
     /// Which meshes of the scene each mesh of the file became in a shape: one per primitive.
     known: HashMap<(usize, Deformation), Vec<usize>>,
@@ -31,7 +35,7 @@ pub(super) struct Meshes<'a> {
 
 impl<'a> Meshes<'a> {
     pub fn new(source: &'a Source) -> Self {
-        Self { source, triangles: 0, default_material: None, known: HashMap::new() }
+        Self { source, triangles: 0, vertices: 0, default_material: None, known: HashMap::new() }
     }
 
     /// The meshes of the scene that a mesh of the file consists of in a shape, which are read on the first call.
@@ -82,6 +86,11 @@ impl<'a> Meshes<'a> {
             Checked::Invalid => return Err(Fault::new(format!("{element}.mode"), "is not within 0…6")),
         };
         attributes::warn_unread(primitive, element, report);
+        let extensions = primitive.extensions.as_ref().map(|extensions| &extensions.others);
+        if extensions.is_some_and(|others| others.contains_key("KHR_draco_mesh_compression")) {
+            let reason = "is compressed with KHR_draco_mesh_compression, which is not supported";
+            return Err(Fault::new(element, reason));
+        }
 
         let position = primitive.attributes.get(&Checked::Valid(Semantic::Positions)).copied();
         let position = position.ok_or_else(|| Fault::new(format!("{element}.attributes"), "there is no POSITION"))?;
@@ -96,6 +105,10 @@ impl<'a> Meshes<'a> {
         // Vertex buffers are often shared by many primitives, each of which uses a part of it.
         let kept = used(triangles.as_flattened(), positions.len());
         let vertices = Vertices { source: self.source, primitive, count: positions.len(), kept: &kept, element };
+        self.vertices = self.vertices.saturating_add(kept.len());
+        if self.vertices > MAX_VERTICES {
+            return Err(Fault::new(element, format!("the file has more than {MAX_VERTICES} vertices in its meshes")));
+        }
         let mut mesh = Mesh { triangles: renumbered(triangles, &kept), ..Mesh::default() };
         mesh.positions = attributes::gather(&positions, &kept);
         mesh.normals = vertices.normals(report);

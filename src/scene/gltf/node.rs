@@ -6,7 +6,7 @@ use std::rc::Rc;
 use glam::DMat4;
 use gltf::json::{Index, Node as NodeSource};
 
-use super::deform::{Deformation, Skin};
+use super::deform::{Deformation, Skin, check_influences};
 use super::instancing::instances;
 use super::mesh::Meshes;
 use super::source::{Source, lookup};
@@ -28,6 +28,7 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
     let animated = animated(source);
     let mut shapes = Shapes { source, meshes: Meshes::new(source), world: None, skins: HashMap::new() };
     let mut places = Places::new();
+    let mut placed = 0;
 
     for (index, parent) in ordered(source, report) {
         let element = format!("nodes[{index}]");
@@ -53,9 +54,16 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
         let parent = parent.and_then(|parent| places.get(&parent.value())).copied();
         let own = Node { name: name.clone(), parent, transform, light, camera, ..Node::default() };
         if skinned {
+            let others = node.extensions.as_ref().map(|extensions| &extensions.others);
+            if others.is_some_and(|others| others.contains_key("EXT_mesh_gpu_instancing")) {
+                report.warn(
+                    format!("{element}.EXT_mesh_gpu_instancing"),
+                    "is not read beside a skin; the mesh is drawn once",
+                );
+            }
             // The joints place a skinned mesh, and the transform of its node does not (glTF 2.0, 3.7.3.3).
             scene.nodes.extend([own, Node { name, meshes, ..Node::default() }]);
-        } else if let Some(transforms) = instances(source, node, &element, report) {
+        } else if let Some(transforms) = instances(source, node, &element, &mut placed, report) {
             scene.nodes.push(own);
             let instance = |transform| Node {
                 name: name.clone(),
@@ -93,7 +101,13 @@ impl Shapes<'_> {
                 return (Vec::new(), false);
             }
         };
-        let weights = node.weights.clone().or_else(|| mesh.weights.clone()).unwrap_or_default();
+        // An empty list is no list.
+        let weights = node
+            .weights
+            .clone()
+            .filter(|weights| !weights.is_empty())
+            .or_else(|| mesh.weights.clone())
+            .unwrap_or_default();
         let mut deformation = Deformation { weights, skin: None };
         if deformation.weights.iter().any(|weight| !weight.is_finite()) {
             report.warn(format!("{element}.weights"), "a weight is not finite; 0 is used");
@@ -108,6 +122,13 @@ impl Shapes<'_> {
             });
             known.clone()
         });
+        if deformation.skin.is_some() {
+            let checked = check_influences(self.source, mesh, &format!("meshes[{index}]"));
+            if let Err(fault) = checked {
+                report.replace(fault, "the mesh is drawn where its node is");
+                deformation.skin = None;
+            }
+        }
         let meshes = self.meshes.get(index, &deformation, report, scene);
         (meshes, deformation.skin.is_some())
     }

@@ -29,10 +29,17 @@ impl Source<'_> {
         let buffer = self.buffers.get(view.buffer.value()).ok_or_else(|| {
             fault(format!("buffer {} is out of range: the file has {}", view.buffer, self.buffers.len()))
         })?;
+        let extensions = view.extensions.as_ref().map(|extensions| &extensions.others);
+        if extensions.is_some_and(|others| {
+            others.contains_key("EXT_meshopt_compression") || others.contains_key("KHR_meshopt_compression")
+        }) {
+            return Err(fault("is compressed with meshopt, which is not supported".into()));
+        }
         let buffer = buffer.as_ref().map_err(Fault::clone)?;
         let (start, length) = (view.byte_offset.map_or(0, |offset| offset.0), view.byte_length.0);
-        let range =
-            usize::try_from(start).ok().zip(start.checked_add(length).and_then(|end| usize::try_from(end).ok()));
+        // Some writers round the length up past the end of the buffer: the users of the view tell whether bytes are missing.
+        let end = start.saturating_add(length).min(buffer.len() as u64);
+        let range = usize::try_from(start).ok().zip(usize::try_from(end).ok());
         let bytes = range.and_then(|(start, end)| buffer.get(start..end)).ok_or_else(|| {
             fault(format!("{length} bytes from {start} on are not within its buffer of {} bytes", buffer.len()))
         })?;

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use image::ImageReader;
+use image::{ImageFormat, ImageReader};
 
 use super::ktx2;
 use super::recognise::foreign;
@@ -15,6 +15,10 @@ pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
         Format::Ktx2 => return ktx2::decode(name, bytes),
         Format::Image(format) => format,
     };
+    // The decoder fills what is missing with a colour of its own.
+    if format == ImageFormat::Jpeg && !bytes.windows(2).rev().take(bytes.len() / 2).any(|pair| pair == [0xFF, 0xD9]) {
+        return Err("is cut short: the end of the JPEG is not there".into());
+    }
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits());
     let texels = reader.decode().map_err(|error| format!("cannot be decoded: {error}"))?.into_rgba8();

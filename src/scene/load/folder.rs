@@ -45,13 +45,20 @@ impl<'a> Folder<'a> {
     /// The file that a relative, percent-encoded URI stands for, as [`Folder::locate`] finds it. The error is a reason.
     #[cfg(feature = "gltf")]
     pub fn locate_uri(&self, uri: &str) -> Result<Located, String> {
-        // Many writers do not encode their names at all.
-        match percent_decode(uri).and_then(|bytes| String::from_utf8(bytes).ok()) {
-            Some(decoded) if decoded != uri => {
-                self.locate(&decoded).or_else(|reason| self.locate(uri).map_err(|_| reason))
-            }
-            _ => self.locate(uri),
+        let text = |bytes: Vec<u8>| {
+            // Names in the code page of a machine are Latin-1 as far as anything is known of them.
+            let latin =
+                |error: std::string::FromUtf8Error| error.into_bytes().iter().map(|&byte| char::from(byte)).collect();
+            String::from_utf8(bytes).unwrap_or_else(latin)
+        };
+        // Many writers do not encode their names at all. A query or a fragment is for servers.
+        let plain = uri.split(['?', '#']).next().unwrap_or(uri);
+        let names = [uri, plain].map(|name| percent_decode(name).map_or_else(|| name.to_owned(), text));
+        let exact = |name: &str| self.locate(name).ok().filter(|located| located.note.is_none());
+        if let Some(located) = names.iter().map(String::as_str).chain([uri]).find_map(exact) {
+            return Ok(located);
         }
+        self.locate(&names[0]).or_else(|reason| self.locate(&names[1]).map_err(|_| reason))
     }
 
     /// The file that a relative path stands for. The error is a reason.

@@ -31,8 +31,44 @@ pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
     if texels.len() < count {
         return Err(format!("is a KTX2 file of {width} × {height} texels with data for {}", texels.len()));
     }
-    let texels = texels.into_iter().take(count).collect();
+    let mut texels: Vec<[u8; 4]> = texels.into_iter().take(count).collect();
+    for (key, value) in reader.key_value_data() {
+        match key {
+            "KTXswizzle" => swizzle(&mut texels, value),
+            "KTXorientation" => turn(&mut texels, width as usize, value),
+            _ => {}
+        }
+    }
     Ok(Image { name: name.into(), width, height, texels })
+}
+
+/// Puts channels where the file says that they are to be seen: `rgba`, `rrr1`.
+fn swizzle(texels: &mut [[u8; 4]], places: &[u8]) {
+    let Some(places) = places.first_chunk::<4>() else { return };
+    for texel in texels {
+        *texel = places.map(|place| match place {
+            b'g' => texel[1],
+            b'b' => texel[2],
+            b'a' => texel[3],
+            b'0' => 0,
+            b'1' => 255,
+            _ => texel[0],
+        });
+    }
+}
+
+/// Turns rows that go up (`ru`) and columns that go left (`ld`).
+fn turn(texels: &mut [[u8; 4]], width: usize, orientation: &[u8]) {
+    if orientation.first() == Some(&b'l') {
+        texels.chunks_exact_mut(width).for_each(<[_]>::reverse);
+    }
+    if orientation.get(1) == Some(&b'u') {
+        let height = texels.len() / width;
+        for row in 0..height / 2 {
+            let (above, below) = texels.split_at_mut((height - 1 - row) * width);
+            above[row * width..(row + 1) * width].swap_with_slice(&mut below[..width]);
+        }
+    }
 }
 
 /// Which channel (0 to 3 for red to alpha) each byte of a texel is.

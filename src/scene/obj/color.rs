@@ -62,7 +62,9 @@ impl Colors {
         let largest = |values: &mut dyn Iterator<Item = f32>| values.filter(|x| x.is_finite()).fold(0.0, f32::max);
         let color = largest(&mut self.encoded.iter().flat_map(|&[r, g, b, _]| [r, g, b]));
         let alpha = largest(&mut self.encoded.iter().map(|&[.., alpha]| alpha));
-        let bytes = |largest: f32| if largest > 2.0 { 255.0 } else { 1.0 };
+        // Bytes are whole numbers; a colour of 2.5 is too bright a colour.
+        let whole = self.encoded.iter().flatten().all(|x| !x.is_finite() || x.fract() == 0.0);
+        let bytes = |largest: f32| if largest > 2.0 && whole { 255.0 } else { 1.0 };
         let divisors = [bytes(color), bytes(color), bytes(color), bytes(alpha)];
         let mut clamped = 0_usize;
         for color in &mut self.encoded {

@@ -15,11 +15,22 @@ pub(super) fn decode(bytes: &[u8]) -> (Cow<'_, str>, Note) {
         [0xFE, 0xFF, content @ ..] => (content, u16::from_be_bytes as fn([u8; 2]) -> u16),
         [1..=255, 0, 1..=255, 0, ..] => (bytes, little),
         [0, 1..=255, 0, 1..=255, ..] => (bytes, u16::from_be_bytes as fn([u8; 2]) -> u16),
-        _ => return (one_byte(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes)), None),
+        _ => {
+            let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+            // Zeros pad files, and end strings of C.
+            let end = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+            return (without_zeros(one_byte(&bytes[..end])), None);
+        }
     };
     let units = content.as_chunks::<2>().0.iter().map(|&pair| unit(pair));
     let text = char::decode_utf16(units).map(|unit| unit.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
     (Cow::Owned(text), Some(NOTE))
+}
+
+fn without_zeros(text: Cow<'_, str>) -> Cow<'_, str> {
+    // A binary file has many, and is to be recognised as one.
+    let zeros = text.bytes().filter(|&byte| byte == 0).count();
+    if zeros == 0 || zeros * 20 > text.len() { text } else { Cow::Owned(text.replace('\0', "")) }
 }
 
 fn one_byte(bytes: &[u8]) -> Cow<'_, str> {

@@ -6,7 +6,7 @@ use super::color::Colors;
 use super::faces::Faces;
 use super::part::{Context, Names};
 use super::tally::{Defect, Tally};
-use super::text::{MRGB, Statement, numbers, shortened};
+use super::text::{MRGB, Statement, numbers, precise, shortened};
 use crate::scene::load::report::Report;
 
 /// Most keywords that are named as unknown.
@@ -15,8 +15,10 @@ const MAX_UNKNOWN: usize = 16;
 /// The vectors of a file, by the number that faces give them.
 #[derive(Default)]
 pub(super) struct Vectors {
-    /// NaN where a statement cannot be read.
+    /// Relative to `offset`; NaN where a statement cannot be read.
     pub positions: Vec<[f32; 3]>,
+    /// Where positions count from, once there is one: at survey coordinates (500 000, 4 500 000) steps of f32 are as large as bricks.
+    pub offset: Option<[f32; 3]>,
     /// As in the file: v grows upwards. 0 where a statement cannot be read.
     pub uvs: Vec<[f32; 2]>,
     /// Unit vectors, or 0 where a statement cannot be read.
@@ -99,7 +101,7 @@ impl Geometry {
 
     fn position(&mut self, line: usize, values: &str) {
         let mut commas = false;
-        let position = vector(values, &mut commas).unwrap_or_else(|reason| {
+        let position = place(values, &mut commas).map(|place| self.vectors.relative(place)).unwrap_or_else(|reason| {
             let reason = || format!("v: {reason}; faces that use it are left out");
             self.tally.add(Defect::Position, line, reason);
             [f32::NAN; 3]
@@ -179,6 +181,27 @@ impl Geometry {
         }
         self.context.material = Some(number);
     }
+}
+
+impl Vectors {
+    /// A place as it is stored. The first place of a file decides where all count from, so that copies of a model have the same
+    /// numbers wherever they stand: from a whole multiple of 256 near it, or 0 where it is nearer than 1024.
+    fn relative(&mut self, place: [f64; 3]) -> [f32; 3] {
+        let near = |x: f64| if x.abs() < 1024.0 { 0.0 } else { ((x / 256.0).round() * 256.0) as f32 };
+        let offset = *self.offset.get_or_insert(place.map(near));
+        std::array::from_fn(|axis| (place[axis] - f64::from(offset[axis])) as f32)
+    }
+}
+
+/// The three coordinates of a place. The error is a reason.
+fn place(values: &str, commas: &mut bool) -> Result<[f64; 3], String> {
+    let mut words = values.split_ascii_whitespace();
+    let mut place = [0.0; 3];
+    for (count, coordinate) in place.iter_mut().enumerate() {
+        let word = words.next().ok_or_else(|| format!("{count} numbers, where 3 belong"))?;
+        *coordinate = precise(word, commas)?;
+    }
+    Ok(place)
 }
 
 /// Arguments without a comment that follows right after a number. `1.#QNAN` is no comment.

@@ -22,6 +22,8 @@ pub(super) struct Library {
     /// Names without what may be a comment, where no whole name is the same.
     short_names: HashMap<String, usize>,
     lower_names: HashMap<String, usize>,
+    /// Whether a library is missing, so that its materials need no warnings of their own.
+    incomplete: bool,
 }
 
 impl Library {
@@ -34,7 +36,8 @@ impl Library {
         report: &mut Report,
     ) -> Self {
         let mut library = Self::default();
-        let mut paths = locate(&geometry.libraries, folder, report);
+        let (mut paths, complete) = locate(&geometry.libraries, folder, report);
+        library.incomplete = !complete;
         if geometry.libraries.is_empty() && !geometry.uses.is_empty() {
             paths.extend(beside(path, folder, report));
         }
@@ -48,6 +51,7 @@ impl Library {
                 Ok(bytes) => bytes,
                 Err(reason) => {
                     report.warn(path.display().to_string(), format!("{reason}; its materials are drawn in grey"));
+                    library.incomplete = true;
                     continue;
                 }
             };
@@ -85,6 +89,9 @@ impl Library {
         let element = format!("line {}", used.line);
         let name = shortened(short);
         let Some(&number) = self.lower_names.get(&short.to_lowercase()) else {
+            if self.incomplete {
+                return None;
+            }
             report.warn(element, format!("there is no material \"{name}\"; it is drawn in grey"));
             return None;
         };
@@ -94,8 +101,9 @@ impl Library {
     }
 }
 
-/// The library files, each once.
-fn locate(statements: &[([String; 2], usize)], folder: &Folder<'_>, report: &mut Report) -> Vec<PathBuf> {
+/// The library files, each once, and whether all were found.
+fn locate(statements: &[([String; 2], usize)], folder: &Folder<'_>, report: &mut Report) -> (Vec<PathBuf>, bool) {
+    let mut complete = true;
     let mut paths = Vec::new();
     let mut seen = HashSet::new();
     for ([argument, whole], line) in statements {
@@ -130,13 +138,16 @@ fn locate(statements: &[([String; 2], usize)], folder: &Folder<'_>, report: &mut
                     }
                     paths.push(located.path);
                 }
-                Err(reason) => report.warn(element(), format!("mtllib: {reason}; its materials are drawn in grey")),
+                Err(reason) => {
+                    complete = false;
+                    report.warn(element(), format!("mtllib: {reason}; its materials are drawn in grey"));
+                }
             }
         }
     }
     let mut seen = HashSet::new();
     paths.retain(|path| seen.insert(path.clone()));
-    paths
+    (paths, complete)
 }
 
 /// The library of the same name as the OBJ file, for files that name none.

@@ -21,24 +21,36 @@ pub(super) struct Map {
     pub clamp: bool,
     /// What `-imfchan` says.
     pub channel: Option<Channel>,
+    /// Whether an option that changes texels (`-mm`, `-t`) is not read.
+    pub unread: bool,
 }
 
 impl Map {
     pub fn parse(statement: Statement<'_>, commas: &mut bool) -> Result<Self, String> {
-        let mut map =
-            Self { files: Default::default(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, channel: None };
+        let mut map = Self {
+            files: Default::default(),
+            scale: [1.0; 2],
+            offset: [0.0; 2],
+            clamp: false,
+            channel: None,
+            unread: false,
+        };
         let mut rest = statement.arguments.trim();
         while rest.starts_with('-') {
             let option = word(&mut rest);
             match option.to_ascii_lowercase().as_str() {
                 "-s" => vector(&mut rest, &mut map.scale, commas),
                 "-o" => vector(&mut rest, &mut map.offset, commas),
-                "-t" => vector(&mut rest, &mut [0.0; 2], commas),
+                "-t" => {
+                    let mut turbulence = [0.0; 2];
+                    vector(&mut rest, &mut turbulence, commas);
+                    map.unread |= turbulence != [0.0; 2];
+                }
                 "-clamp" => map.clamp = word(&mut rest).eq_ignore_ascii_case("on"),
                 "-imfchan" => map.channel = channel(word(&mut rest)),
                 "-mm" => {
-                    word(&mut rest);
-                    word(&mut rest);
+                    let [base, gain] = [word(&mut rest), word(&mut rest)].map(|word| number(word, commas));
+                    map.unread |= base != Ok(0.0) || gain != Ok(1.0);
                 }
                 "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-texres" | "-type" | "-colorspace" => {
                     word(&mut rest);

@@ -7,7 +7,7 @@
 //!   an unused number beside each map.
 //! - Glass (`illum` 4, 6, 7, 9) is drawn as a thin pane ([`thin_pane`]), with a warning, or with its `d` where that is below 1.
 //! - `d` is opacity: a surface covers as much of what lies behind. It wins over `Tr` = 1 − `d`, which some exporters write the other way round.
-//! - `map_d` is a mask, cut off at one half: the alpha channel of `map_Kd` where it is the same file and has one; otherwise
+//! - `map_d` is opacity too, texel by texel: the alpha channel of `map_Kd` where it is the same file and has one; otherwise
 //!   the luminance, or the alpha of an image of one colour; `-imfchan` wins over both. The alpha channel of `map_Kd` alone
 //!   means nothing.
 
@@ -19,8 +19,6 @@ use crate::scene::description::{Alpha, Material, Texture};
 use crate::scene::load::pane::thin_pane;
 use crate::scene::load::report::Report;
 
-/// Opacity of a mask below which there is a hole.
-const CUTOFF: f32 = 0.5;
 /// Index of refraction of most dielectrics.
 const GLASS: f32 = 1.5;
 
@@ -53,7 +51,12 @@ impl Source {
         let [name, _] = &self.names;
         let element = &format!("{file} material \"{}\"", shortened(name));
         let mut get = |kind: Kind, report: &mut Report| {
-            self.maps.get(&kind).and_then(|map| Some((textures.file(map, element, report)?, map)))
+            let map = self.maps.get(&kind)?;
+            let unread = matches!(kind, Kind::Diffuse | Kind::Specular | Kind::Emissive) && map.channel.is_some();
+            if map.unread || unread {
+                report.warn_once(element, "the options -mm and -t, and -imfchan of a colour, are not read");
+            }
+            Some((textures.file(map, element, report)?, map))
         };
         let diffuse_map = get(Kind::Diffuse, report);
         let specular_map = get(Kind::Specular, report);
@@ -187,8 +190,7 @@ impl Source {
             _ => textures.masked(color, (raw, map, channel)),
         };
         match texture {
-            Ok(texture) if factor < 1.0 => Opacity { factor, alpha, texture: Some(texture) },
-            Ok(texture) => Opacity { factor, alpha: Alpha::Mask(CUTOFF), texture: Some(texture) },
+            Ok(texture) => Opacity { factor, alpha: Alpha::Blend, texture: Some(texture) },
             Err(reason) => {
                 report.warn(element, format!("map_d {reason}; the surface is drawn as opaque"));
                 Opacity { factor, alpha, texture: None }
@@ -209,7 +211,7 @@ impl Source {
                 report.warn(element, reason);
                 // Glass scatters nothing, whatever Kd says.
                 let clear = Material { base_color: [1.0; 4], base_color_texture: None, ..material };
-                thin_pane(clear, (filter.iter().sum::<f32>() / 3.0).clamp(0.0, 1.0))
+                thin_pane(clear, (filter.iter().sum::<f32>() / 3.0).clamp(0.0, 1.0), 1.0)
             }
             _ if filter != [1.0; 3] => {
                 report.warn(element, "Tf (coloured transmission) is not read");

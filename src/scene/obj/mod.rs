@@ -30,7 +30,7 @@ mod textures;
 use std::collections::HashMap;
 use std::path::Path;
 
-use crate::scene::description::{Alpha, Material, Mesh, Node, Scene, SceneError};
+use crate::scene::description::{Alpha, Material, Mesh, Node, Scene, SceneError, Transform};
 use crate::scene::load::Loaded;
 use crate::scene::load::files::Files;
 use crate::scene::load::folder::Folder;
@@ -88,7 +88,9 @@ fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fau
     }
     scene.images = textures.into_images();
     let meshes = (0..scene.meshes.len()).collect();
-    scene.nodes.push(Node { meshes, ..Node::default() });
+    let translation = vectors.offset.unwrap_or_default();
+    let transform = Transform::Trs { translation, rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
+    scene.nodes.push(Node { meshes, transform, ..Node::default() });
     Ok(scene)
 }
 

@@ -21,9 +21,10 @@ pub(super) fn each_statement(text: &str, mut visit: impl FnMut(Statement<'_>)) {
     let mut lines = lines(text);
     let mut joined = String::new();
     while let Some((line, text)) = lines.next() {
-        let whole = text.trim();
+        // Files that were put together have byte-order marks in the middle.
+        let whole = text.trim_start_matches('\u{FEFF}').trim();
         let statement = if whole.starts_with(MRGB) { whole } else { without_comment(whole) };
-        if !statement.ends_with('\\') {
+        if !continues(statement) {
             visit_one(line, statement, whole, &mut visit);
             continue;
         }
@@ -37,6 +38,15 @@ pub(super) fn each_statement(text: &str, mut visit: impl FnMut(Statement<'_>)) {
         joined.push_str(part);
         visit_one(line, joined.trim(), joined.trim(), &mut visit);
     }
+}
+
+/// Whether a statement goes on in the next line. Names may end with a backslash, as paths of Windows do.
+fn continues(statement: &str) -> bool {
+    const NAMES: [&str; 6] = ["g", "o", "usemtl", "newmtl", "mtllib", "map_"];
+    let Some(before) = statement.strip_suffix('\\') else { return false };
+    let keyword = statement.split_whitespace().next().unwrap_or("").to_ascii_lowercase();
+    let names = NAMES.iter().any(|name| keyword == *name || (name.ends_with('_') && keyword.starts_with(name)));
+    !names || before.ends_with(char::is_whitespace)
 }
 
 fn visit_one(line: usize, statement: &str, whole: &str, visit: &mut impl FnMut(Statement<'_>)) {
@@ -76,17 +86,27 @@ fn without_comment(line: &str) -> &str {
     line
 }
 
-/// Reads a finite number. A decimal comma counts as a point, and is noted in `commas`. The error is a reason.
+/// Reads a number that is finite in 32 bits. A decimal comma counts as a point, and is noted in `commas`. The error is a reason.
 pub(super) fn number(word: &str, commas: &mut bool) -> Result<f32, String> {
-    let number = word.parse::<f32>().or_else(|error| {
-        let with_point = word.contains(',').then(|| word.replacen(',', ".", 1).parse::<f32>());
-        let number = with_point.and_then(Result::ok).ok_or(error)?;
-        *commas = true;
-        Ok::<_, std::num::ParseFloatError>(number)
+    precise(word, commas).map(|number| number as f32)
+}
+
+/// As [`number`], with all its digits.
+pub(super) fn precise(word: &str, commas: &mut bool) -> Result<f64, String> {
+    let number = word.parse::<f64>().or_else(|error| {
+        let with_point = word.contains(',').then(|| word.replacen(',', ".", 1).parse::<f64>());
+        if let Some(Ok(number)) = with_point {
+            *commas = true;
+            return Ok(number);
+        }
+        // As Fortran and C write numbers.
+        let is_number = word.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
+        let plain = || word.trim_end_matches(['f', 'F']).replace(['D', 'd'], "e").parse::<f64>();
+        if is_number { plain() } else { Err(error) }
     });
     match number {
-        Ok(number) if number.is_finite() => Ok(number),
-        Ok(number) => Err(format!("{number} is not finite")),
+        Ok(number) if (number as f32).is_finite() => Ok(number),
+        Ok(number) => Err(format!("{} is not finite", number as f32)),
         Err(_) => Err(format!("\"{}\" is not a number", shortened(word))),
     }
 }

@@ -83,7 +83,7 @@ impl<'a> Textures<'a> {
         let Located { path, note } = match located {
             Ok(located) => located,
             Err(reason) => {
-                report.warn(element, format!("{reason}; it is drawn without this texture"));
+                report.warn_once(element, format!("{reason}; materials are drawn without this texture"));
                 return None;
             }
         };

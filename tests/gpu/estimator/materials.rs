@@ -213,3 +213,19 @@ fn what_is_seen_through_a_blended_surface_comes_to_rest() {
     let change = image.iter().zip(&next).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
     assert!(change < 0.03, "a pixel changes by {change} from frame to frame");
 }
+
+#[test]
+fn the_edge_between_two_triangles_of_a_blended_quad_covers_once() {
+    // The diagonal goes through the centres of pixels.
+    let sheet = Material { alpha: Alpha::Blend, unlit: true, base_color: [0.8, 0.0, 0.0, 0.3], ..lambert([0.0; 3]) };
+    let black = Material { unlit: true, ..lambert([0.0; 3]) };
+    for moves in [false, true] {
+        let camera = Camera { eye: [0.0, 3.0, 0.0], target: [0.0; 3], ..from_above() };
+        let found = images(behind_a_sheet(sheet.clone(), black.clone(), moves), camera, tracer(Sampling::Both, 0), 400);
+        let diagonal = (0..SIZE[1]).map(|row| (row * SIZE[0] + (SIZE[0] - SIZE[1]) / 2 + SIZE[1] - 1 - row) as usize);
+        let mean = |image: &Vec<[f32; 3]>| diagonal.clone().map(|pixel| f64::from(image[pixel][0])).sum::<f64>() / 16.0;
+        let mean = found.iter().map(mean).sum::<f64>() / found.len() as f64;
+        // 6400 coins of 0.3: 0.8 · 0.46 / 80 is one standard deviation.
+        assert!((mean - 0.24).abs() < 0.02, "{mean}");
+    }
+}
