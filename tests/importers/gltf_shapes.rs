@@ -152,6 +152,9 @@ fn a_morph_target_that_does_not_fit_is_left_out() {
     primitive(&mut gltf)["targets"] = json!([{"POSITION": short}]);
     gltf.json["meshes"][0]["weights"] = json!([1.0]);
     let (_, bounds) = drawn(&gltf, &[("targets[0].POSITION", "2 elements, but POSITION has 4; it is left out")]);
+    let mut colored = gltf.clone();
+    primitive(&mut colored)["targets"] = json!([{"COLOR_0": 0}]);
+    drawn(&colored, &[("primitives[0].targets", "COLOR_0 of morph targets is not read")]);
     assert_eq!(bounds, [[-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]]);
 }
 

@@ -101,6 +101,12 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
         return Err(Fault::new("JSON", "the file is empty"));
     }
     if let Ok(root) = Root::from_slice(json) {
+        let mut primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+        if primitives.any(|primitive| primitive.targets.is_some())
+            && let Ok(root) = serde_json::from_slice(json)
+        {
+            warn_of_targets(&root, report);
+        }
         return Ok(root);
     }
     let first = || serde_json::Deserializer::from_slice(json).into_iter::<Value>().next();
@@ -123,7 +129,23 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
         }
     };
     check_kind(&mut value, report)?;
+    warn_of_targets(&value, report);
     mend(value, report)
+}
+
+/// Names what morph targets move beside positions and normals, which the JSON reader does not tell.
+fn warn_of_targets(root: &Value, report: &mut Report) {
+    let list = |value: &Value, name: &str| value.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
+    for (mesh, description) in list(root, "meshes").iter().enumerate() {
+        for (number, primitive) in list(description, "primitives").iter().enumerate() {
+            let targets = list(primitive, "targets");
+            let mut names = targets.iter().filter_map(Value::as_object).flat_map(|target| target.keys());
+            if let Some(name) = names.find(|name| name.starts_with("COLOR_") || name.starts_with("TEXCOORD_")) {
+                let element = format!("meshes[{mesh}].primitives[{number}].targets");
+                report.warn_once(element, format!("{name} of morph targets is not read"));
+            }
+        }
+    }
 }
 
 /// Text of 16-bit units, which a text editor may make of a file.
