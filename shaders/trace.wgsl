@@ -20,9 +20,9 @@
 #endif
 #import asvgf::scene::{NO_TRIANGLE, geometry_word, instance_numbers, scene}
 #import asvgf::color::{BRIGHTEST, luminance, sanitize}
-#import asvgf::packing::pack_rgb
+#import asvgf::packing::{pack_rgb, round_to_f16}
 #ifdef ALPHA_BLEND
-#import asvgf::texture::{cover_at_random, is_blended}
+#import asvgf::texture::{cover_at_random, cover_from, covered_at, is_blended}
 #endif
 #ifdef RESHADE
 #import asvgf::strata::{is_sample_pixel, previous_pixel, stratum_of}
@@ -200,6 +200,35 @@ fn start_of_path(seen: Surface, ray: Ray, seed: u32) -> Start {
 }
 #endif
 
+#ifdef ALPHA_BLEND
+// Surfaces behind each other whose colours are told apart.
+const MOST_LAYERS: u32 = 8u;
+
+// The albedo of a pixel that sees blended surfaces: those of all surfaces along its ray, each as much as it is seen, and white where light
+// comes without a reflection, from the sky and from what emits. It is the same in each frame, whichever of the surfaces a path begins on.
+fn blended_albedo(ray: Ray) -> vec3<f32> {
+    cover_from(0.0);
+    var origin = ray.origin;
+    var uncovered = 1.0;
+    var albedo = vec3(0.0);
+    for (var layer = 0u; layer < MOST_LAYERS && uncovered > 0.01; layer++) {
+        let hit = closest_hit(Ray(origin, ray.direction));
+        rays += 1u;
+        if hit.triangle == NO_TRIANGLE {
+            break;
+        }
+        let v = Visible(hit.triangle, hit.instance);
+        let s = surface_at(v, triangle_now(v), hit.barycentrics, ray.direction);
+        let covered = covered_at(hit.triangle, hit.barycentrics);
+        albedo += uncovered * covered * select(demodulation(s), vec3(1.0), luminance(s.emission) > 0.0);
+        uncovered *= 1.0 - covered;
+        // Behind the surface, by what keeps rays from meeting it again.
+        origin = s.position - s.margin * s.geometric + (1e-5 * hit.distance) * ray.direction;
+    }
+    return round_to_f16(clamp(albedo + uncovered, vec3(1e-3), vec3(1.0)));
+}
+#endif
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef FEW_TRIANGLES
@@ -232,9 +261,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var albedo = demodulation(s);
     var emission = s.emission;
 #ifdef ALPHA_BLEND
-    // Their light has the colours of several surfaces in it.
+    // Their light comes from several surfaces.
     if is_own_blended {
-        albedo = vec3(1.0);
+        albedo = blended_albedo(ray);
         emission = vec3(0.0);
     }
 #endif
@@ -246,7 +275,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var seed_frame = frame.index;
 #ifdef RESHADE
     let record = textureLoad(samples, stratum_of(id.xy), 0);
-    if is_sample_pixel(record, id.xy) {
+    let is_repeated = is_sample_pixel(record, id.xy);
+    if is_repeated {
         let q = previous_pixel(record);
         let then = textureLoad(visibility_previous, q, 0).x;
         s = visible_surface(then, frame.previous, vec2<f32>(q), true);
@@ -263,15 +293,24 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     sum = before.xyz;
     rays = u32(before.w);
 #endif
-    var modulation = demodulation(s);
+#ifndef LATER_PATHS
+    var modulation = albedo;
+#ifdef RESHADE
+    if is_repeated {
+        modulation = demodulation(s);
+#ifdef ALPHA_BLEND
+        if start_of_path(s, ray, 0u).blended {
+            modulation = blended_albedo(ray);
+        }
+#endif
+    }
+#endif
+#endif
     for (var i = 0u; i < frame.batch; i++) {
         let seed = seed_of(seed_pixel, seed_frame, frame.first_sample + i, frame.seed);
 #ifdef ALPHA_BLEND
         let start = start_of_path(s, ray, seed);
-        if start.blended {
-            modulation = vec3(1.0);
-            sum += sanitize(start.light);
-        }
+        sum += sanitize(start.light);
         if !start.ends {
             sum += sanitize(path(start.surface, seed));
         }

@@ -1,6 +1,6 @@
 #define_import_path asvgf::texture
 
-#import asvgf::scene::{scene, image_word, attributes, load_material, geometry_word, TextureUse, CULLED, BLENDED}
+#import asvgf::scene::{scene, image_word, attributes, load_material, geometry_word, TextureUse, Material, CULLED, BLENDED}
 #ifdef ALPHA_BLEND
 #import asvgf::random::hash
 #endif
@@ -128,16 +128,8 @@ fn passes_through(opacity: f32, row: u32, instance: u32, barycentrics: vec2<f32>
 }
 #endif
 
-// Whether a ray goes through this point of a triangle, which it meets from the back or from the front: because of its opacity, or
-// because the material has no back faces.
-fn is_hole(row: u32, instance: u32, barycentrics: vec2<f32>, back: bool) -> bool {
-    let material = load_material(geometry_word(row * 3u).w);
-    if back && (material.flags & CULLED) != 0u {
-        return true;
-    }
-    if material.cutoff <= 0.0 {
-        return false;
-    }
+// Opacity of a material at a point of a triangle.
+fn opacity_at(material: Material, row: u32, barycentrics: vec2<f32>) -> f32 {
     var opacity = material.base_color.w;
 #ifdef VERTEX_COLORS
     opacity *= vertex_color(row, barycentrics).w;
@@ -148,6 +140,31 @@ fn is_hole(row: u32, instance: u32, barycentrics: vec2<f32>, back: bool) -> bool
         opacity *= sample_texture(image, row, barycentrics, false).w;
     }
 #endif
+    return opacity;
+}
+
+#ifdef ALPHA_BLEND
+// How much a surface covers of what lies behind a point of it that a ray has met.
+fn covered_at(row: u32, barycentrics: vec2<f32>) -> f32 {
+    let material = load_material(geometry_word(row * 3u).w);
+    if (material.flags & BLENDED) == 0u {
+        return 1.0;
+    }
+    return clamp(opacity_at(material, row, barycentrics), 0.0, 1.0);
+}
+#endif
+
+// Whether a ray goes through this point of a triangle, which it meets from the back or from the front: because of its opacity, or
+// because the material has no back faces.
+fn is_hole(row: u32, instance: u32, barycentrics: vec2<f32>, back: bool) -> bool {
+    let material = load_material(geometry_word(row * 3u).w);
+    if back && (material.flags & CULLED) != 0u {
+        return true;
+    }
+    if material.cutoff <= 0.0 {
+        return false;
+    }
+    let opacity = opacity_at(material, row, barycentrics);
 #ifdef ALPHA_BLEND
     if (material.flags & BLENDED) != 0u {
         return passes_through(opacity, row, instance, barycentrics);

@@ -33,7 +33,9 @@ impl Batches {
         // One towards a light and one onwards from each surface.
         let surfaces = 1 + tracer.bounces.min(tracer.roulette.saturating_add(ROULETTE_REACH));
         let rounds_per_surface = traits.environment_run.saturating_add(2 * rounds_per_ray);
-        let rounds = surfaces.saturating_mul(rounds_per_surface);
+        // Where surfaces blend, each path begins with a ray from the camera.
+        let begins = if traits.alpha_blend { rounds_per_ray } else { 0 };
+        let rounds = surfaces.saturating_mul(rounds_per_surface).saturating_add(begins);
         let most = (MOST_ROUNDS / rounds.max(1)).max(1);
         let dispatches = tracer.samples.div_ceil(most).max(1);
         Self { samples: tracer.samples, each: tracer.samples.div_ceil(dispatches).max(1) }

@@ -139,7 +139,8 @@ pub enum Alpha {
     /// Points whose opacity is below the cutoff do not exist.
     Mask(f32),
     /// The surface covers as much of what lies behind as its opacity: a ray meets it with that probability. Noise is higher
-    /// there, and light is filtered together with the colours.
+    /// there, because a path begins on one of the surfaces that a pixel sees. The denoiser keeps the depth, normal and motion
+    /// of the nearest one with an opacity of at least ½, and the albedo of all.
     Blend,
 }
 

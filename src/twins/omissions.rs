@@ -90,13 +90,17 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     let images = &["exists", "sample_texture", "srgb_to_linear", "texel", "texture_coordinates", "wrap"][..];
     let opacity = &[
         "belongs_to_neighbour",
+        "blended_albedo",
         "cover_at_random",
+        "cover_from",
         "coverage",
         "coverage_seed",
+        "covered_at",
         "descends",
         "is_blended",
         "is_hole",
         "meets_back",
+        "opacity_at",
         "passes_through",
         "start_of_path",
     ][..];
@@ -119,9 +123,12 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
             Traits { alpha_blend: false, ..ALL },
             &[
                 "belongs_to_neighbour",
+                "blended_albedo",
                 "cover_at_random",
+                "cover_from",
                 "coverage",
                 "coverage_seed",
+                "covered_at",
                 "descends",
                 "is_blended",
                 "passes_through",

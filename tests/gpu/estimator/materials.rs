@@ -229,3 +229,23 @@ fn the_edge_between_two_triangles_of_a_blended_quad_covers_once() {
         assert!((mean - 0.24).abs() < 0.02, "{mean}");
     }
 }
+
+#[test]
+fn the_albedo_behind_a_blended_surface_is_that_of_all_that_is_seen() {
+    use crate::common::stage::Stage;
+    use asvgf::{Settings, View};
+    // Reflectance at normal incidence is part of the albedo.
+    let red =
+        Material { alpha: Alpha::Blend, base_color: [0.8, 0.0, 0.0, 0.3], specular: [0.04; 3], ..lambert([0.0; 3]) };
+    let blue = Material { specular: [0.04; 3], ..lambert([0.0, 0.0, 0.8]) };
+    for moves in [false, true] {
+        let mut stage = Stage::new(behind_a_sheet(red.clone(), blue.clone(), moves), SIZE, Settings::adaptive());
+        stage.camera = Some(from_above());
+        for _ in 0..3 {
+            for color in stage.frame().view(View::Albedo) {
+                let expected = [0.3 * 0.84 + 0.7 * 0.04, 0.04, 0.3 * 0.04 + 0.7 * 0.84];
+                assert!(std::iter::zip(color, expected).all(|(a, b)| (a - b).abs() < 2e-3), "{color:?}");
+            }
+        }
+    }
+}
