@@ -21,7 +21,7 @@ const SCENE: [&str; 17] = [
     "src/plan/batches.rs",
     "src/scene/alias.rs",
     "src/scene/bvh.rs",
-    "src/scene/environment.rs",
+    "src/scene/centre.rs",
     "src/scene/facets.rs",
     "src/scene/folded.rs",
     "src/scene/geometry.rs",
