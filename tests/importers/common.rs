@@ -155,6 +155,18 @@ impl Gltf {
     }
 }
 
+/// Changes or adds a value anywhere in a file.
+pub fn set(pointer: &str, value: Value) -> impl FnOnce(&mut Gltf) {
+    let (parent, name) = pointer.rsplit_once('/').map(|(parent, name)| (parent.to_owned(), name.to_owned())).unwrap();
+    move |gltf| {
+        let parent = gltf.json.pointer_mut(&parent).unwrap();
+        match parent {
+            Value::Array(list) => list[name.parse::<usize>().unwrap()] = value,
+            parent => parent[name] = value,
+        }
+    }
+}
+
 /// A GLB file made of chunks.
 pub fn glb(chunks: &[(&[u8; 4], &[u8])]) -> Vec<u8> {
     let length: usize = 12 + chunks.iter().map(|(_, chunk)| 8 + chunk.len()).sum::<usize>();

@@ -15,18 +15,6 @@ fn broken(change: impl FnOnce(&mut Gltf), element: &str, reason: &str) {
     assert_error(gltf.load(), "test.gltf", element, reason);
 }
 
-/// Changes a value anywhere in the file.
-fn set(pointer: &str, value: Value) -> impl FnOnce(&mut Gltf) {
-    let (parent, name) = pointer.rsplit_once('/').map(|(parent, name)| (parent.to_owned(), name.to_owned())).unwrap();
-    move |gltf| {
-        let parent = gltf.json.pointer_mut(&parent).unwrap();
-        match parent {
-            Value::Array(list) => list[name.parse::<usize>().unwrap()] = value,
-            parent => parent[name] = value,
-        }
-    }
-}
-
 #[test]
 fn indices_out_of_range() {
     broken(set("/nodes/0/mesh", json!(1)), "nodes[0].mesh", "index 1 is out of range");

@@ -18,18 +18,6 @@ fn mended(change: impl FnOnce(&mut Gltf), element: &str, reason: &str) -> asvgf:
     loaded.scene
 }
 
-/// Changes or adds a value anywhere in the file.
-fn set(pointer: &str, value: Value) -> impl FnOnce(&mut Gltf) {
-    let (parent, name) = pointer.rsplit_once('/').map(|(parent, name)| (parent.to_owned(), name.to_owned())).unwrap();
-    move |gltf| {
-        let parent = gltf.json.pointer_mut(&parent).unwrap();
-        match parent {
-            Value::Array(list) => list[name.parse::<usize>().unwrap()] = value,
-            parent => parent[name] = value,
-        }
-    }
-}
-
 #[test]
 fn indices_that_lead_nowhere() {
     mended(set("/scene", json!(3)), "scene", "index 3 is out of range: the file has 1; the first scene is drawn");
