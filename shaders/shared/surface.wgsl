@@ -173,7 +173,7 @@ fn plane_margin(t: Triangle, normal: vec3<f32>, error: vec3<f32>) -> f32 {
     return dot(abs(normal), error) * thinness;
 }
 
-// The nearest weights that are within a triangle by the error of its points, and by 2 millionths of its size at least. A ray that meets an
+// The nearest weights that are within a triangle by the error of its points, and by a fifth of a millionth of its size at least. A ray that meets an
 // edge within rounding may be beyond the neighbour's plane, and what leaves from there has left a closed room.
 fn within_edges(t: Triangle, weights: vec2<f32>, error: vec3<f32>) -> vec2<f32> {
     let edge_b = t.b - t.a;
@@ -181,7 +181,7 @@ fn within_edges(t: Triangle, weights: vec2<f32>, error: vec3<f32>) -> vec2<f32> 
     let area_normal = cross(edge_b, edge_c);
     // A corner's weight falls from 1 to 0 over its height, which is the doubled area over the opposite edge.
     let per_error = vec3(distance(t.b, t.c), length(edge_c), length(edge_b)) * inverseSqrt(max(dot(area_normal, area_normal), 1e-37));
-    let least = clamp(per_error * max(max(error.x, error.y), error.z), vec3(2e-6), vec3(0.25));
+    let least = clamp(per_error * max(max(error.x, error.y), error.z), vec3(2e-7), vec3(0.25));
     let inner = max(weights, least.yz);
     return inner * min(1.0, (1.0 - least.x) / (inner.x + inner.y));
 }
