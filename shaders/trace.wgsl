@@ -255,14 +255,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var s = visible_surface(seen, frame.camera, vec2<f32>(id.xy), false);
 #ifdef ALPHA_BLEND
     var ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
-    let is_own_blended = start_of_path(s, ray, 0u).blended;
 #endif
 #ifndef LATER_PATHS
     var albedo = demodulation(s);
     var emission = s.emission;
 #ifdef ALPHA_BLEND
     // Their light comes from several surfaces.
-    if is_own_blended {
+    if start_of_path(s, ray, 0u).blended {
         albedo = blended_albedo(ray);
         emission = vec3(0.0);
     }

@@ -1,11 +1,10 @@
 //! Reading scene files.
 
 pub(crate) mod decode;
+pub(crate) mod encoding;
 pub(crate) mod files;
 pub(crate) mod folder;
 mod ktx2;
-#[cfg(feature = "gltf")]
-pub(crate) mod normals;
 pub(crate) mod pane;
 pub(crate) mod recognise;
 pub(crate) mod report;

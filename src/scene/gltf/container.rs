@@ -1,6 +1,5 @@
 //! From bytes to JSON: the GLB container, the version and the extensions of a file.
 
-use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use gltf::json::Root;
@@ -8,6 +7,7 @@ use serde_json::Value;
 
 use super::mend::mend;
 use super::text::tidy;
+use crate::scene::load::encoding;
 use crate::scene::load::recognise::foreign;
 use crate::scene::load::report::{Fault, Report};
 
@@ -92,11 +92,10 @@ fn split<'a>(bytes: &'a [u8], report: &mut Report) -> Result<(&'a [u8], Option<&
 }
 
 fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
-    let json = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
-    let decoded = utf_16(json);
+    let whole = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
     // Writers pad chunks with zeros as well as with spaces.
-    let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
-    let json = json.get(..end).unwrap_or_default();
+    let end = whole.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    let json = whole.get(..end).unwrap_or_default();
     if json.iter().all(u8::is_ascii_whitespace) {
         return Err(Fault::new("JSON", "the file is empty"));
     }
@@ -109,22 +108,14 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
         }
         return Ok(root);
     }
-    let first = || serde_json::Deserializer::from_slice(json).into_iter::<Value>().next();
     let mut value = match serde_json::from_slice(json) {
         Ok(value) => value,
-        Err(error)
-            if error.to_string().starts_with("trailing characters") && first().is_some_and(|first| first.is_ok()) =>
-        {
-            report.warn("JSON", format!("{error}; they are left out"));
-            first().and_then(Result::ok).unwrap_or_default()
-        }
         Err(error) => {
-            let text = decoded.map_or_else(|| String::from_utf8_lossy(json), Cow::Owned);
-            let value = serde_json::from_str(&tidy(&text)).map_err(|_| match foreign(json) {
-                Some(kind) if !json.trim_ascii_start().starts_with(b"{") => Fault::new("file", kind),
-                _ => Fault::new("JSON", error.to_string()),
-            })?;
-            report.warn("JSON", format!("{error}; it is read as if it were JSON"));
+            let (value, instead) = match before_rest(json, &error) {
+                Some(value) => (value, "they are left out"),
+                None => (nearly_json(whole, &error)?, "it is read as if it were JSON"),
+            };
+            report.warn("JSON", format!("{error}; {instead}"));
             value
         }
     };
@@ -133,9 +124,26 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
     mend(value, report)
 }
 
+/// The value at the start of a text behind which there are other characters.
+fn before_rest(json: &[u8], error: &serde_json::Error) -> Option<Value> {
+    let rest = error.to_string().starts_with("trailing characters");
+    rest.then(|| serde_json::Deserializer::from_slice(json).into_iter().next()?.ok()).flatten()
+}
+
+/// What a text says that is not JSON, in whatever encoding. The fault is the reader's own, unless the file is of another kind.
+fn nearly_json(whole: &[u8], error: &serde_json::Error) -> Result<Value, Fault> {
+    let (text, _) = encoding::decode(whole);
+    serde_json::from_str(&tidy(&text)).map_err(|_| match foreign(whole) {
+        Some(kind) if !whole.trim_ascii_start().starts_with(b"{") => Fault::new("file", kind),
+        _ => Fault::new("JSON", error.to_string()),
+    })
+}
+
 /// Names what morph targets move beside positions and normals, which the JSON reader does not tell.
 fn warn_of_targets(root: &Value, report: &mut Report) {
-    let list = |value: &Value, name: &str| value.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
+    fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
+        value.get(name).and_then(Value::as_array).map_or(&[], Vec::as_slice)
+    }
     for (mesh, description) in list(root, "meshes").iter().enumerate() {
         for (number, primitive) in list(description, "primitives").iter().enumerate() {
             let targets = list(primitive, "targets");
@@ -146,17 +154,6 @@ fn warn_of_targets(root: &Value, report: &mut Report) {
             }
         }
     }
-}
-
-/// Text of 16-bit units, which a text editor may make of a file.
-fn utf_16(bytes: &[u8]) -> Option<String> {
-    let unit: fn([u8; 2]) -> u16 = match bytes {
-        [0xFF, 0xFE, ..] | [b'{', 0, ..] => u16::from_le_bytes,
-        [0xFE, 0xFF, ..] | [0, b'{', ..] => u16::from_be_bytes,
-        _ => return None,
-    };
-    let units: Vec<u16> = bytes.as_chunks::<2>().0.iter().map(|&pair| unit(pair)).collect();
-    Some(String::from_utf16_lossy(&units).trim_start_matches('\u{FEFF}').to_owned())
 }
 
 /// Refuses JSON that is not glTF 2.0.

@@ -11,9 +11,9 @@ use super::accessor::{Elements, INDEX, REAL};
 use super::attributes::{self, Vertices};
 use super::deform::Deformation;
 use super::material::default_material;
+use super::normals::repair_normals;
 use super::source::Source;
 use crate::scene::description::{Material, Mesh, Scene};
-use crate::scene::load::normals::repair_normals;
 use crate::scene::load::report::{Fault, Report};
 
 /// Most triangles that the meshes of one file may have together. Primitives may share one index buffer, so that the

@@ -19,6 +19,7 @@ mod material;
 mod mend;
 mod mesh;
 mod node;
+mod normals;
 mod source;
 mod text;
 mod transform;

@@ -4,6 +4,7 @@ use gltf::json::Material as MaterialSource;
 
 use super::image::Images;
 use crate::scene::description::{Alpha, Image, Material, Texture};
+use crate::scene::environment::linear_from_srgb;
 use crate::scene::load::pane::thin_pane;
 use crate::scene::load::report::Report;
 
@@ -31,9 +32,9 @@ pub(super) fn apply(
     }
     let texture = if extension.transmission_texture.is_some() { ", and its texture is not read" } else { "" };
     report.warn(user, format!("glass is drawn as a thin pane that neither refracts nor tints{texture}"));
-    // By the exponent 2.2, which is as near to sRGB as a mean needs.
-    let light =
-        |[r, g, b, _]: [u8; 4]| [r, g, b].map(|byte| (f32::from(byte) / 255.0).powf(2.2)).iter().sum::<f32>() / 3.0;
+    let light = |[r, g, b, _]: [u8; 4]| {
+        [r, g, b].map(|byte| linear_from_srgb(f32::from(byte) / 255.0)).iter().sum::<f32>() / 3.0
+    };
     let colored = mean(material.base_color_texture, light);
     let base_color_texture = match material.alpha {
         // An opaque material ignores the opacity of its texture; a pane that blends would not.

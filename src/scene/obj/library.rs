@@ -3,12 +3,12 @@
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
-use super::encoding;
 use super::geometry::{Geometry, Use};
 use super::source::{Source, parse};
 use super::text::shortened;
 use super::textures::Textures;
 use crate::scene::description::Material;
+use crate::scene::load::encoding;
 use crate::scene::load::folder::Folder;
 use crate::scene::load::recognise::foreign;
 use crate::scene::load::report::Report;

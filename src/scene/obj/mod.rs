@@ -12,7 +12,6 @@
 
 mod assemble;
 mod color;
-mod encoding;
 mod faces;
 mod geometry;
 mod library;
@@ -32,6 +31,7 @@ use std::path::Path;
 
 use crate::scene::description::{Alpha, Material, Mesh, Node, Scene, SceneError, Transform};
 use crate::scene::load::Loaded;
+use crate::scene::load::encoding;
 use crate::scene::load::files::Files;
 use crate::scene::load::folder::Folder;
 use crate::scene::load::recognise::{foreign, is_binary};

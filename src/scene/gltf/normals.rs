@@ -6,7 +6,7 @@ use crate::scene::description::Mesh;
 
 /// Makes all normals unit vectors; those without a direction get that of the triangles around, weighted by area.
 /// Returns how many those were.
-pub(crate) fn repair_normals(mesh: &mut Mesh) -> usize {
+pub(super) fn repair_normals(mesh: &mut Mesh) -> usize {
     let mut replaced = 0;
     let mut around: Option<Vec<Vec3>> = None;
     for vertex in 0..mesh.normals.len() {

@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 
 /// How a text was written that is neither UTF-8 nor ASCII, so that a warning can say it.
-pub(super) type Note = Option<&'static str>;
+pub(crate) type Note = Option<&'static str>;
 
-/// Decodes the bytes of an OBJ or MTL file: UTF-8, UTF-16 (known by its byte-order mark, or by the zero bytes between ASCII
+/// Decodes the bytes of a file that is a text: UTF-8, UTF-16 (known by its byte-order mark, or by the zero bytes between ASCII
 /// characters), and Latin-1 wherever bytes are not UTF-8, because exporters write names in the code page of their machine.
-pub(super) fn decode(bytes: &[u8]) -> (Cow<'_, str>, Note) {
-    const NOTE: &str = "is UTF-16, where OBJ and MTL are ASCII or UTF-8; it is read as UTF-16";
+pub(crate) fn decode(bytes: &[u8]) -> (Cow<'_, str>, Note) {
+    const NOTE: &str = "is UTF-16, where ASCII or UTF-8 belongs; it is read as UTF-16";
     let little: fn([u8; 2]) -> u16 = u16::from_le_bytes;
     let (content, unit) = match bytes {
         [0xFF, 0xFE, content @ ..] => (content, little),
