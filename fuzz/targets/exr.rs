@@ -1,8 +1,8 @@
-//! An EXR file, the layers that the example `denoise` finds in it, and the file written again.
+//! An EXR file, the layers that the program `denoise` finds in it, and the file written again.
 #![no_main]
 
-#[allow(dead_code, reason = "shared with the example, which uses the rest")]
-#[path = "../../examples/support/sequence/layers.rs"]
+#[allow(dead_code, reason = "shared with the programs, which use the rest")]
+#[path = "../../programs/src/sequence/layers.rs"]
 mod layers;
 
 use asvgf::image_io::ExrFile;

@@ -9,13 +9,13 @@ mod browser;
 mod codec;
 mod compute;
 #[allow(dead_code, reason = "shared with the integration tests, which use the rest")]
-#[path = "../../tests/common/gpu.rs"]
+#[path = "../../tests/gpu/common/gpu.rs"]
 pub(crate) mod gpu;
 pub(crate) mod layout;
 mod omissions;
 mod permutations;
 #[allow(dead_code, reason = "shared with the integration tests, which use the rest")]
-#[path = "../../tests/common/plane.rs"]
+#[path = "../../tests/gpu/common/plane.rs"]
 mod plane;
 mod random;
 mod traversal;

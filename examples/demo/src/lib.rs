@@ -10,8 +10,6 @@ mod controls;
 mod documentation;
 pub mod dropped;
 pub mod embed;
-#[path = "../../support/framing.rs"]
-mod framing;
 pub mod gpu;
 mod means;
 mod messages;
@@ -26,8 +24,6 @@ mod scenes;
 mod screenshot;
 mod settings;
 mod shortcuts;
-#[path = "../../support/sky.rs"]
-mod sky;
 mod split;
 pub mod state;
 mod stopwatch;

@@ -1,11 +1,11 @@
 //! The scene on show: where it comes from, and what of it moves.
 
 use crate::dropped::Files;
-use crate::framing::{bounds, framing};
-use crate::sky::{is_dark, sky};
 use crate::state::Motion;
 use asvgf::Camera;
 use asvgf::scene::{self, Animation, Loaded, Pose, Scene, SceneError, builtin};
+use asvgf_fallbacks::framing::{bounds, framing};
+use asvgf_fallbacks::sky::{is_dark, sky};
 use glam::{DMat4, DVec3, Vec3};
 use std::path::Path;
 

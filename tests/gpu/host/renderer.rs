@@ -6,10 +6,10 @@ use asvgf::{Denoiser, DenoiserDescriptor, Shading, Surfaces, View, ViewOptions};
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 #[allow(dead_code, reason = "shared with the example, which uses the rest")]
-#[path = "../../../examples/support/host.rs"]
-mod host;
+#[path = "../../../examples/host_raster/renderer.rs"]
+mod renderer;
 
-use host::{Moment, Renderer};
+use renderer::{Moment, Renderer};
 
 const SIZE: [u32; 2] = [64, 36];
 

@@ -1,0 +1,178 @@
+//! What `denoise` says: what it found, what it takes instead of the rest, and what seemed wrong.
+
+use crate::denoise::look_ahead::{Ahead, Denoised};
+use crate::sequence::layers::Layer;
+use crate::sequence::pixels::Area;
+use crate::sequence::{Break, Eye, Sequence};
+use asvgf::{Gradient, Settings};
+
+/// Before the first frame.
+pub fn before(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> String {
+    let [width, height] = sequence.size;
+    let (first, last) = (&sequence.files[0], &sequence.files[sequence.frames() - 1]);
+    let step = if sequence.step > 1 { format!(", every {}", ordinal(sequence.step)) } else { String::new() };
+    let mut out = format!("frames {} to {}{step}, {width}×{height}", first.digits, last.digits);
+    let picture = sequence.raster.picture;
+    if sequence.size != picture || sequence.raster.offset != [0; 2] {
+        out += &format!(" of a picture of {}×{}", picture[0], picture[1]);
+    }
+    out += "\n";
+    for (layer, names) in &sequence.taken {
+        out += &format!("  {:<18}{names}\n", layer.name());
+    }
+    if !sequence.other_view_layers.is_empty() {
+        let others = sequence.other_view_layers.join(", ");
+        out += &format!("view layer {}: there is {others} too, see --layer\n", quoted(&sequence.view_layer));
+    }
+    let absent: Vec<&str> = Layer::ALL.into_iter().filter(|&layer| !sequence.has(layer)).map(Layer::name).collect();
+    if !absent.is_empty() {
+        out += &format!("left out, as the files do not have it: {}\n", absent.join(", "));
+    }
+    out += &format!("level: {}\n", level(sequence, settings, ahead));
+    for (index, broken) in sequence.breaks.iter().enumerate() {
+        if let Some(broken) = broken {
+            let digits = &sequence.files[index].digits;
+            out += &format!("note: frame {digits} begins anew: {}\n", reason(*broken));
+        }
+    }
+    for note in notes(sequence) {
+        out += &format!("note: {note}\n");
+    }
+    out
+}
+
+fn ordinal(step: i64) -> String {
+    match step {
+        2 => "second".into(),
+        3 => "third".into(),
+        step => format!("{step}th"),
+    }
+}
+
+fn quoted(name: &str) -> String {
+    if name.is_empty() { "without a name".into() } else { name.into() }
+}
+
+/// What edges are told by, how surfaces are followed, and what makes α adapt.
+fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> String {
+    let edges = match (sequence.has(Layer::Normal), sequence.has_surfaces()) {
+        (true, true) => "edges by normals and depth",
+        (false, true) => "edges by depth, and normals made of it",
+        (true, false) => "edges by normals",
+        (false, false) => "edges by light alone",
+    };
+    let albedo =
+        if sequence.has(Layer::Albedo) { ", textures kept" } else { ", textures blurred where they are faint" };
+    let followed = if sequence.has(Layer::Motion) {
+        "surfaces followed"
+    } else if follows(sequence) {
+        "surfaces followed by the camera"
+    } else {
+        "nothing taken to move"
+    };
+    let alpha = match settings.filter.gradient {
+        Gradient::Pairs => "α by pairs",
+        Gradient::Lambda => "α by λ",
+        Gradient::Off => "α constant",
+        _ => "α by the image alone",
+    };
+    let future = match ahead.filter(|_| sequence.frames() > 1) {
+        Some(ahead) if ahead.smooth_edges => "past and future, edges of whole pixels",
+        Some(_) => "past and future, edges of points",
+        None => "past",
+    };
+    format!("{edges}{albedo}; {followed}; {alpha}; {future}")
+}
+
+/// Whether anything tells where surfaces were: motion, or a camera that moves before them.
+fn follows(sequence: &Sequence) -> bool {
+    sequence.has(Layer::Motion) || (sequence.has_surfaces() && sequence.cameras.len() > 1)
+}
+
+/// Words for why a frame begins anew.
+fn reason(broken: Break) -> &'static str {
+    match broken {
+        Break::Gap => "frames are missing before it",
+        Break::Cut => "a cut",
+    }
+}
+
+/// What is taken where nothing was said, and what that may cost.
+fn notes(sequence: &Sequence) -> Vec<String> {
+    let mut notes = Vec::new();
+    if sequence.blank_depth {
+        notes.push("all depths are 0: they are taken for absent".into());
+    } else if sequence.depth_sign < 0.0 {
+        notes.push("all depths are below 0: they are taken for those of what lies before the camera".into());
+    }
+    if !sequence.borrowed.is_empty() {
+        let frames = sequence.borrowed.join(", ");
+        notes.push(format!("frames {frames} tell nothing of their camera: that of the nearest one that does is taken"));
+    }
+    if !sequence.has_surfaces() {
+        notes.push(
+            "no depth: what lies behind is told by light alone, and borders between surfaces of one light are blurred; nothing is known \
+             to be sky"
+                .into(),
+        );
+    } else {
+        let camera = match sequence.eye {
+            Eye::Given => None,
+            Eye::Described => Some("cameras are those that the files' attributes describe"),
+            Eye::Fitted => {
+                Some("no cameras in manifest.json: they were derived from normals and depth, but for where they are")
+            }
+            Eye::Turned => Some(
+                "no cameras in manifest.json, and no surface tells the field of view: --fov-y is taken, or 45 degrees, in the \
+                 direction that normals and depth show",
+            ),
+            Eye::Assumed => Some(
+                "no cameras in manifest.json: one at the origin is taken, that looks along -Z with +Y up; normals should be in \
+                 its space, and --fov-y right",
+            ),
+        };
+        notes.extend(camera.map(Into::into));
+    }
+    if sequence.normals_of_view.is_some() {
+        notes.push("normals are taken to be in the camera's own space: surfaces are flat that way".into());
+    }
+    if !sequence.has(Layer::Motion) {
+        let motion = match sequence.eye {
+            Eye::Given | Eye::Described if sequence.has_surfaces() => "only the camera is taken to move",
+            Eye::Fitted | Eye::Turned if sequence.has_surfaces() => "the camera is taken to turn, and nothing to move",
+            _ => "nothing is taken to move; what does is smeared or noisy",
+        };
+        notes.push(format!("motion is absent: {motion}"));
+    }
+    let area = sequence.area.map(|area| match area {
+        Area::Scattered => "pixels are areas: depths are those of points all over them; --edges sharp if not",
+        Area::Blender => "pixels are areas, as Blender's are; --edges sharp if not",
+    });
+    notes.extend(area.map(Into::into));
+    if sequence.frames() == 1 {
+        notes.push("one frame: there is nothing to average over time".into());
+    }
+    notes
+}
+
+/// After the last frame.
+pub fn after(denoised: &Denoised) -> String {
+    let mut out = String::new();
+    if let Some(frame) = denoised.repeated {
+        out += &format!(
+            "note: frames before {frame} are the same, to the last bit, wherever nothing moves: frames are denoised by themselves \
+             from there on, as long as that is so; let the renderer take another seed in each, and averages over time are possible\n"
+        );
+    }
+    if !denoised.cuts.is_empty() {
+        let cuts: Vec<String> = denoised.cuts.iter().map(i64::to_string).collect();
+        out += &format!(
+            "note: frames {} begin another shot: nothing in them is where it was; they were denoised anew\n",
+            cuts.join(", ")
+        );
+    }
+    if let Some(complaint) = &denoised.complaint {
+        out += &format!("warning: {complaint}\n");
+    }
+    out
+}

@@ -1,0 +1,135 @@
+//! What fits into a budget. Repeats are dropped first, within each run; then sizes, here; then methods, from the end of
+//! the list.
+
+use crate::gpu::Gpu;
+use crate::report::command::Command;
+use crate::report::methods::Group;
+use crate::report::pace;
+use crate::report::record::Run;
+use crate::report::script::Script;
+use crate::report::suite::Suite;
+use crate::report::work;
+use std::collections::{BTreeSet, HashSet};
+use std::error::Error;
+use std::path::Path;
+
+/// No smaller: hardly anything is seen in less.
+const SMALLEST: [u32; 2] = [64, 36];
+
+/// Estimates are too short by up to such a part: scenes differ.
+const MARGIN: f64 = 1.25;
+
+/// What is still to be done, once through.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// Methods in sequences.
+    pub runs: u64,
+    /// Frames of methods that filter.
+    pub filtered: u64,
+    /// Paths per pixel of frames that are not filtered: of references, and of path tracing alone.
+    pub paths: u64,
+    /// Frames that are held against their references.
+    pub scored: u64,
+}
+
+/// Seconds for one of each, at one size.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    /// What a run takes however few pixels there are: shaders are compiled.
+    pub run: f64,
+    pub filtered: f64,
+    pub path: f64,
+    pub scored: f64,
+}
+
+impl Pace {
+    /// Seconds of a load at a part of the pixels: all but the runs' beginnings goes with their number.
+    pub fn seconds(&self, load: &Load, part: f64) -> f64 {
+        let parts = [(self.filtered, load.filtered), (self.path, load.paths), (self.scored, load.scored)];
+        self.run * load.runs as f64 + part * parts.map(|(seconds, count)| seconds * count as f64).iter().sum::<f64>()
+    }
+}
+
+/// The first of a size, its half, its quarter, … at which a load is done in time, at a pace that was measured at the size
+/// as it is.
+pub fn size(full: [u32; 2], seconds: f64, pace: &Pace, mut load: impl FnMut([u32; 2]) -> Load) -> [u32; 2] {
+    let mut size = full;
+    loop {
+        let smaller = size.map(|side| side / 2);
+        let part = f64::from(size[0] * size[1]) / f64::from(full[0] * full[1]);
+        let fits = MARGIN * pace.seconds(&load(size), part) <= seconds;
+        if fits || smaller[0] < SMALLEST[0] || smaller[1] < SMALLEST[1] {
+            return size;
+        }
+        size = smaller;
+    }
+}
+
+/// Makes a suite smaller if all its methods do not fit into the budget once; says so in words.
+pub fn fit(command: &mut Command, gpu: &Gpu) -> Result<Option<String>, Box<dyn Error>> {
+    let (full, Some(minutes)) = (command.suite.size, command.budget) else { return Ok(None) };
+    let runs = command.out.join("runs");
+    let all = load(&command.suite, gpu, &runs)?;
+    if all == Load::default() {
+        return Ok(None);
+    }
+    let pace = pace::measure(gpu, &command.suite)?;
+    let mut failure = None;
+    let chosen = size(full, 60.0 * minutes, &pace, |size| {
+        command.suite.size = size;
+        load(&command.suite, gpu, &runs).unwrap_or_else(|error| {
+            failure = Some(error);
+            Load::default()
+        })
+    });
+    command.suite.size = chosen;
+    let would = pace.seconds(&all, 1.0) / 60.0;
+    let [[width, height], [less_width, less_height]] = [full, chosen];
+    let dropped = format!(
+        "size: at {width}×{height} all of it would take about {would:.0} minutes once through, so it is \
+         {less_width}×{less_height}"
+    );
+    failure.map_or(Ok((chosen != full).then_some(dropped)), Err)
+}
+
+/// What was not kept by an earlier report.
+fn load(suite: &Suite, gpu: &Gpu, runs: &Path) -> Result<Load, Box<dyn Error>> {
+    let mut load = Load::default();
+    for sequence in &suite.sequences {
+        let script = Script::load(suite, sequence)?;
+        let frames = suite.first()..suite.first() + suite.frames;
+        let references: HashSet<_> =
+            frames.map(|index| script.frame(index)).map(|(p, c)| script.reference(&p, &c)).collect();
+        let missing = references.iter().filter(|path| !path.exists()).count();
+        load.paths += missing as u64 * u64::from(suite.paths);
+        for method in &suite.methods {
+            let key = work::key(script.hash, suite, method, gpu)?;
+            if Run::load(&work::path(runs, &sequence.name, method), &key).is_some() {
+                continue;
+            }
+            let frames = u64::from(suite.frames);
+            load.runs += 1;
+            load.scored += frames;
+            match method.group {
+                Group::Tracing(paths) => load.paths += frames * u64::from(paths),
+                _ => load.filtered += frames,
+            }
+        }
+    }
+    Ok(load)
+}
+
+/// What was dropped of a sequence, in words, given how often each method was repeated if it was run at all.
+pub fn shortfall(sequence: &str, runs: &[(&str, Option<u32>)], repeats: u32) -> Option<String> {
+    let short = |count: Option<u32>| count.is_none_or(|count| count < repeats);
+    let counts: BTreeSet<_> = runs.iter().map(|(_, count)| *count).filter(|&count| short(count)).collect();
+    let part = |count: Option<u32>| {
+        let names: Vec<_> = runs.iter().filter(|run| run.1 == count).map(|run| run.0).collect();
+        let names = if names.len() == runs.len() { "all methods".into() } else { names.join(", ") };
+        count.map_or(format!("{names} as a whole"), |count| {
+            format!("{} of {repeats} repeats of {names}", repeats - count)
+        })
+    };
+    let parts: Vec<String> = counts.into_iter().map(part).collect();
+    (!parts.is_empty()).then(|| format!("{sequence}: {}", parts.join("; ")))
+}

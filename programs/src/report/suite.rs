@@ -1,0 +1,108 @@
+//! What is measured: sequences, methods, and how well.
+
+use crate::program::repository;
+use crate::render::options::Source;
+use crate::report::methods::{self, Method};
+use asvgf::scene::builtin::ANIMATIONS;
+use std::path::Path;
+
+/// The built-in scenes' lamps and paths turn in this frame: blinking ones go out, moving ones go back.
+pub const TURN: u32 = 30;
+
+/// The scene with textures, a mask and gloss.
+const TEXTURED: &str = "assets/textured/room.glb";
+
+/// The scenes and their animations, the most telling first.
+const SCENES: [(&str, &[&str]); 3] =
+    [("cornell", &ANIMATIONS), ("pillars", &ANIMATIONS), ("textured", &["static", "move-camera"])];
+
+/// So many of a scene's animations are in the quick suite.
+const QUICK: usize = 3;
+
+pub struct Suite {
+    pub name: &'static str,
+    pub size: [u32; 2],
+    /// Frames of each sequence, half of them before the turn.
+    pub frames: u32,
+    /// Paths per pixel of a reference.
+    pub paths: u32,
+    /// How often times are taken.
+    pub repeats: u32,
+    pub sequences: Vec<Sequence>,
+    pub methods: Vec<Method>,
+}
+
+/// Frames of one scene with one animation.
+#[derive(Clone, Debug)]
+pub struct Sequence {
+    /// Also the name of its files.
+    pub name: String,
+    pub source: Source,
+    pub animation: Option<String>,
+}
+
+impl Suite {
+    /// For a look, and for software adapters: minutes.
+    pub fn quick() -> Self {
+        Self {
+            name: "quick",
+            size: [96, 54],
+            frames: 16,
+            paths: 256,
+            repeats: 3,
+            sequences: sequences("cornell", &ANIMATIONS[..QUICK]),
+            methods: methods::quick(),
+        }
+    }
+
+    /// For the record.
+    pub fn full() -> Self {
+        Self {
+            name: "full",
+            size: [640, 360],
+            frames: 32,
+            paths: 8192,
+            repeats: 5,
+            sequences: SCENES.iter().flat_map(|(scene, animations)| sequences(scene, animations)).collect(),
+            methods: methods::all(),
+        }
+    }
+
+    /// Keeps the sequences of one scene; of a file there is one.
+    pub fn only(&mut self, scene: &str) {
+        let known = SCENES.iter().find(|(name, _)| *name == scene);
+        self.sequences = match known {
+            Some((_, animations)) if self.name == "quick" => {
+                sequences(scene, &animations[..QUICK.min(animations.len())])
+            }
+            Some((_, animations)) => sequences(scene, animations),
+            None => {
+                let stem = Path::new(scene).file_stem().unwrap_or_default();
+                vec![Sequence {
+                    name: stem.to_string_lossy().into(),
+                    source: Source::File(scene.into()),
+                    animation: None,
+                }]
+            }
+        };
+    }
+
+    /// Number of the first frame.
+    pub fn first(&self) -> u32 {
+        TURN - self.frames / 2
+    }
+}
+
+/// A scene with each of some animations.
+fn sequences(scene: &str, animations: &[&str]) -> Vec<Sequence> {
+    let source = match scene {
+        "textured" => Source::File(repository().join(TEXTURED)),
+        _ => Source::BuiltIn(scene.into()),
+    };
+    let sequence = |animation: &&str| Sequence {
+        name: format!("{scene}-{animation}"),
+        source: source.clone(),
+        animation: Some(animation.to_string()),
+    };
+    animations.iter().map(sequence).collect()
+}

@@ -1,0 +1,188 @@
+//! Measuring under way: sequence by sequence, method by method, within the time that there is.
+
+use crate::gpu::Gpu;
+use crate::report::command::Command;
+use crate::report::growth::Growth;
+use crate::report::hash::Hash;
+use crate::report::measure::{self, Output};
+use crate::report::methods::{DEFAULT, Group, Method, ONE_PATH};
+use crate::report::record::Run;
+use crate::report::suite::{Sequence, Suite, TURN};
+use crate::report::summary::Summary;
+use crate::report::truth::{self, Rgb, Truth};
+use crate::report::words::Chapter;
+use crate::report::{baseline, budget, crops, plots, verdict, words_growth};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use std::{fs, io};
+
+/// The constant α that pictures show.
+const CONSTANT: &str = "svgf 0.2";
+/// The code that decides what a run is.
+pub const CODE: [&str; 8] = [
+    "shaders",
+    "src",
+    "programs/src/report/measure.rs",
+    "programs/src/report/record.rs",
+    "programs/src/report/score.rs",
+    "programs/src/report/truth.rs",
+    "programs/src/film.rs",
+    "programs/src/times.rs",
+];
+/// The frame that pictures show, just after the turn.
+const SHOWN: u32 = TURN + 1;
+
+/// What is being measured, and what it may take.
+pub struct Work<'a> {
+    command: &'a Command,
+    gpu: &'a Gpu,
+    bar: ProgressBar,
+    deadline: Option<Instant>,
+    /// Runs that are still to do.
+    left: usize,
+    /// What there was no time for.
+    dropped: Vec<String>,
+}
+
+impl<'a> Work<'a> {
+    /// The budget is counted from a start on.
+    pub fn new(command: &'a Command, gpu: &'a Gpu, start: Instant, dropped: Vec<String>) -> Self {
+        let suite = &command.suite;
+        let deadline = command.budget.map(|minutes| start + Duration::from_secs_f64(60.0 * minutes));
+        let left = suite.sequences.len() * suite.methods.len();
+        Self { command, gpu, bar: progress(suite), deadline, left, dropped }
+    }
+
+    /// What there was no time for.
+    pub fn finish(self) -> Vec<String> {
+        self.bar.finish_and_clear();
+        self.dropped
+    }
+
+    /// Measures a sequence, and draws it; `None` where there is no time left for any of it.
+    pub fn chapter(&mut self, sequence: &Sequence) -> Result<Option<Chapter>, Box<dyn Error>> {
+        let Command { suite, out, baselines, .. } = self.command;
+        let name = sequence.name.clone();
+        let runs = out.join("runs");
+        let folder = runs.join(&name);
+        fs::create_dir_all(&folder)?;
+        // What was kept takes no time.
+        if self.time() == Some(Duration::ZERO) && fs::read_dir(&folder)?.next().is_none() {
+            self.dropped.push(format!("{name} as a whole"));
+            return Ok(None);
+        }
+        self.bar.set_message(format!("{name}: references"));
+        let export = self.command.export.then(|| out.join("sequences").join(&name));
+        if let Some(folder) = &export {
+            fs::create_dir_all(folder)?;
+        }
+        let counting = |frames: u32| self.bar.inc(frames.into());
+        // One for each sequence: on one for all, lavapipe took 100 ms for a temporal pass of 4 ms from the 120th method on,
+        // as if it compiled it in each frame. It keeps compiled shaders by the device, and not without end.
+        let gpu = Gpu::new()?;
+        let mut truth = Truth::find(&gpu, suite, sequence, export.as_deref(), counting)?;
+        let (mut summaries, mut repeats) = (Vec::new(), Vec::new());
+        for method in &suite.methods {
+            self.bar.set_message(format!("{name}: {}", method.name));
+            let run = self.run(&gpu, &name, method, &mut truth, &runs)?;
+            repeats.push((method.name.as_str(), run.as_ref().map(|run| run.repeats)));
+            summaries.extend(run.map(|run| Summary::of(&run, &method.name, method.group)));
+            self.left -= 1;
+            self.bar.inc(suite.frames.into());
+        }
+        self.dropped.extend(budget::shortfall(&name, &repeats, suite.repeats));
+        let traced = verdict::find(&summaries, ONE_PATH).map_or(Vec::new(), |summary| summary.passes.clone());
+        for baseline in baselines {
+            if let Some(run) = baseline::run(baseline, &name, &truth.moments, suite.size, &traced)? {
+                summaries.push(Summary::of(&run, &baseline.name, Group::Baseline));
+            }
+        }
+        let plots = plots::draw(out, &name, &summaries)?;
+        let picture = self.picture(&name, &truth, &folder)?;
+        Ok(Some(Chapter { sequence: name, summaries, plots, picture }))
+    }
+
+    /// Measures how cost grows, and draws it; returns it in words.
+    pub fn growth(&self) -> Result<String, Box<dyn Error>> {
+        let out = &self.command.out;
+        let next = |what: &str| self.bar.set_message(format!("growth: {what}"));
+        let growth = Growth::find(self.gpu, &out.join("runs/growth.json"), next)?;
+        let plots = plots::draw_growth(out, &growth)?;
+        Ok(words_growth::growth(&growth, &plots))
+    }
+
+    /// Time that is left, if there is an end to it.
+    fn time(&self) -> Option<Duration> {
+        self.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()))
+    }
+
+    /// A run that was kept, or a new one; `None` where there is no time for it.
+    fn run(
+        &self,
+        gpu: &Gpu,
+        sequence: &str,
+        method: &Method,
+        truth: &mut Truth,
+        runs: &Path,
+    ) -> Result<Option<Run>, Box<dyn Error>> {
+        let Command { suite, .. } = self.command;
+        let key = key(truth.hash, suite, method, gpu)?;
+        let path = path(runs, sequence, method);
+        // Without a budget, what an earlier one cut short is measured again.
+        let complete = |run: &Run| self.deadline.is_some() || run.repeats >= suite.repeats;
+        if let Some(run) = Run::load(&path, &key).filter(complete) {
+            return Ok(Some(run));
+        }
+        // Each run that is left gets its part of the time that is left, and repeats within that.
+        let time = self.time();
+        if time == Some(Duration::ZERO) {
+            return Ok(None);
+        }
+        let share = time.map(|time| time / self.left as u32);
+        let Output { run, images } = measure::run(gpu, suite, truth, (sequence, method), key, share)?;
+        if let Some(shown) = truth.moments.iter().position(|moment| moment.index == SHOWN) {
+            let [width, height] = suite.size;
+            asvgf::image_io::write_exr_rgb(path.with_extension("exr"), width, height, &images[shown])?;
+        }
+        run.save(&path)?;
+        Ok(Some(run))
+    }
+
+    /// One path per pixel, a constant and an adaptive α, and the truth, side by side.
+    fn picture(&self, sequence: &str, truth: &Truth, folder: &Path) -> Result<Option<String>, Box<dyn Error>> {
+        let size = self.command.suite.size;
+        let Some(moment) = truth.moments.iter().find(|moment| moment.index == SHOWN) else { return Ok(None) };
+        let mut tiles: Vec<(String, Vec<Rgb>)> = Vec::new();
+        for method in [ONE_PATH, CONSTANT, DEFAULT] {
+            // A budget may have left it out.
+            if let Ok(colors) = truth::read_colors(&folder.join(format!("{method}.exr")), size) {
+                tiles.push((method.into(), colors));
+            }
+        }
+        tiles.push((format!("reference, {} spp", self.command.suite.paths), moment.reference.clone()));
+        let name = format!("{sequence}-comparison.png");
+        crops::write(&self.command.out.join(&name), size, &tiles)?;
+        Ok(Some(name))
+    }
+}
+
+/// Everything that decides a run.
+pub fn key(scene: Hash, suite: &Suite, method: &Method, gpu: &Gpu) -> io::Result<String> {
+    let key = scene.and_files(&CODE)?.and(&method.settings).and(&suite.frames);
+    Ok(key.and(&gpu.adapter.name).to_string())
+}
+
+/// The file that a run is kept in.
+pub fn path(runs: &Path, sequence: &str, method: &Method) -> PathBuf {
+    runs.join(sequence).join(format!("{}.json", method.name))
+}
+
+/// A bar of frames, references included. It does not show where there is no terminal.
+fn progress(suite: &Suite) -> ProgressBar {
+    let runs = suite.sequences.len() * (suite.methods.len() + 1);
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {elapsed} gone, {eta} to go");
+    let bar = ProgressBar::new(runs as u64 * u64::from(suite.frames));
+    bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}

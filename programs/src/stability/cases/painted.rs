@@ -1,0 +1,170 @@
+//! A host whose renderer is a function: a wall in front of the camera, lit by whatever a case wants, one path per pixel.
+//!
+//! As a host's renderer does, one pixel in nine repeats a path of the last frame in this frame's light, and the pairs are handed in.
+
+use crate::stability::common::gpu::gpu;
+use crate::stability::common::images::{colors, upload};
+use crate::stability::common::statistics::Rgb;
+use asvgf::{
+    Camera, Denoiser, DenoiserDescriptor, FilterSettings, Gradient, Pairs, Settings, Shading, Surfaces, View,
+    ViewOptions,
+};
+use wgpu::{TextureFormat, TextureView};
+
+/// A path: where it starts, whose random numbers it takes, in which frame's light.
+#[derive(Clone, Copy, Debug)]
+pub struct Path {
+    pub pixel: [u32; 2],
+    pub seed: u32,
+    pub frame: u32,
+}
+
+impl Path {
+    /// A random number of the path, 0…1 (SplitMix64 of all that it depends on).
+    pub fn uniform(&self, draw: u64) -> f64 {
+        let [x, y] = self.pixel.map(u64::from);
+        let mut z = (x | y << 16 | u64::from(self.seed) << 32) ^ draw.wrapping_mul(0xd6e8_feb8_6659_fd93);
+        for factor in [0xbf58_476d_1ce4_e5b9, 0x94d0_49bb_1331_11eb] {
+            z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            z = (z ^ (z >> 29)).wrapping_mul(factor);
+        }
+        ((z ^ (z >> 32)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Noise of mean 1: 0…2.
+    pub fn noise(&self) -> f64 {
+        2.0 * self.uniform(0)
+    }
+}
+
+/// The same in each channel.
+pub fn grey(value: f64) -> Rgb {
+    [value as f32; 3]
+}
+
+/// The default filter, with pairs handed in.
+pub fn adaptive() -> Settings {
+    with(FilterSettings::default())
+}
+
+/// A filter with pairs handed in.
+pub fn with(filter: FilterSettings) -> Settings {
+    Settings { filter: FilterSettings { gradient: Gradient::Pairs, ..filter }, ..Settings::adaptive() }
+}
+
+/// What a host hands in, as images on the CPU: a case may spoil it.
+#[derive(Clone, Debug)]
+pub struct Views {
+    pub depth: Vec<[f32; 1]>,
+    pub normal: Vec<Rgb>,
+    pub motion: Vec<[f32; 2]>,
+    pub previous_depth: Vec<[f32; 1]>,
+    pub radiance: Vec<Rgb>,
+    pub albedo: Vec<Rgb>,
+    pub emission: Vec<Rgb>,
+    pub pairs: [Vec<Rgb>; 2],
+}
+
+pub struct Painted {
+    pub denoiser: Denoiser,
+    /// Number of the next frame.
+    pub index: u32,
+    pub camera: Camera,
+    target: TextureView,
+}
+
+impl Painted {
+    pub fn new(size: [u32; 2], settings: Settings) -> Self {
+        let descriptor = DenoiserDescriptor { size, settings, diagnostics: true, views: true, ..Default::default() };
+        Self {
+            denoiser: Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap(),
+            index: 0,
+            camera: Camera::default(),
+            target: gpu().target(size, TextureFormat::Rgba32Float),
+        }
+    }
+
+    pub fn resize(&mut self, size: [u32; 2]) {
+        self.denoiser.resize(&gpu().device, size).unwrap();
+        self.target = gpu().target(size, TextureFormat::Rgba32Float);
+    }
+
+    fn pixels(&self) -> impl Iterator<Item = [u32; 2]> + use<> {
+        let [width, height] = self.denoiser.size();
+        (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]))
+    }
+
+    /// The next frame as a host would hand it in.
+    pub fn views(&self, light: &dyn Fn(&Path) -> Rgb) -> Views {
+        let (index, before) = (self.index, self.index.wrapping_sub(1));
+        // The choice goes round the stratum, four places on, as the denoiser's own does.
+        let place = 4 * (index % 9) % 9;
+        let repeats = |[x, y]: [u32; 2]| y % 3 * 3 + x % 3 == place;
+        let own = |pixel| Path { pixel, seed: if repeats(pixel) { before } else { index }, frame: index };
+        let pair = |frame: u32| {
+            let of = |pixel| if repeats(pixel) { light(&Path { pixel, seed: before, frame }) } else { [-1.0; 3] };
+            self.pixels().map(of).collect()
+        };
+        let count = self.pixels().count();
+        Views {
+            depth: vec![[2.0]; count],
+            normal: vec![[0.0, 0.0, 1.0]; count],
+            motion: vec![[0.0; 2]; count],
+            previous_depth: vec![[2.0]; count],
+            radiance: self.pixels().map(|pixel| light(&own(pixel))).collect(),
+            albedo: vec![[1.0; 3]; count],
+            emission: vec![[0.0; 3]; count],
+            pairs: [pair(index), pair(before)],
+        }
+    }
+
+    /// Filters what a host hands in.
+    pub fn denoise(&mut self, views: &Views) -> Vec<Rgb> {
+        let (gpu, size) = (gpu(), self.denoiser.size());
+        let [depth, previous_depth] = [&views.depth, &views.previous_depth].map(|image| upload(gpu, size, image));
+        let motion = upload(gpu, size, &views.motion);
+        let [normal, radiance, albedo, emission, current, previous] =
+            [&views.normal, &views.radiance, &views.albedo, &views.emission, &views.pairs[0], &views.pairs[1]]
+                .map(|image| upload(gpu, size, image));
+        let surfaces = Surfaces {
+            previous_depth: Some(&previous_depth),
+            ..Surfaces::new(self.camera, self.index, &depth, &normal, &motion)
+        };
+        let shading = Shading {
+            albedo: Some(&albedo),
+            emission: Some(&emission),
+            pairs: Some(Pairs { current: &current, previous: &previous, in_place: true }),
+            ..Shading::new(&radiance, &self.target)
+        };
+        gpu.submit(|encoder| {
+            self.denoiser.begin_frame(&gpu.device, encoder, &surfaces).unwrap();
+            self.denoiser.denoise(&gpu.device, encoder, &shading).unwrap();
+        });
+        self.index = self.index.wrapping_add(1);
+        colors(gpu, &self.target)
+    }
+
+    /// Paints and filters the next frame.
+    pub fn frame(&mut self, light: &dyn Fn(&Path) -> Rgb) -> Vec<Rgb> {
+        let views = self.views(light);
+        self.denoise(&views)
+    }
+
+    /// Paints and filters several frames, and returns the last.
+    pub fn frames(&mut self, count: u32, light: &dyn Fn(&Path) -> Rgb) -> Vec<Rgb> {
+        (0..count).map(|_| self.frame(light)).last().unwrap_or_default()
+    }
+
+    /// An intermediate image of the last frame, as numbers.
+    pub fn view(&mut self, view: View) -> Vec<Rgb> {
+        let target = gpu().target(self.denoiser.size(), TextureFormat::Rgba32Float);
+        gpu().submit(|e| self.denoiser.show(&gpu().device, e, view, ViewOptions::default(), &target)).unwrap();
+        colors(gpu(), &target)
+    }
+
+    /// The largest number of an intermediate image; infinite if one is not finite.
+    pub fn largest(&mut self, view: View) -> f64 {
+        let finite = |x: f32| if x.is_finite() { f64::from(x) } else { f64::INFINITY };
+        self.view(view).iter().map(|c| finite(c[0])).fold(0.0, f64::max)
+    }
+}

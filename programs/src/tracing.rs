@@ -1,0 +1,62 @@
+//! Frames of the path tracer on a film.
+
+use crate::film::Film;
+use crate::gpu::Gpu;
+use crate::times::PassTimes;
+use asvgf::scene::GpuScene;
+use asvgf::{Camera, Error, Frame, Mode, Settings};
+
+/// Most paths per pixel in one dispatch of a reference: enough to hide what a dispatch costs, and far from the seconds
+/// after which systems take a GPU for hung.
+const BATCH: u32 = 16;
+
+/// Renders a frame and waits for it.
+pub fn render(film: &mut Film<'_>, scene: &GpuScene, camera: Camera, index: u32) -> Result<PassTimes, Error> {
+    let device = &film.gpu.device;
+    film.expose(|denoiser, encoder, target, after| {
+        denoiser.render_stepwise(device, encoder, &Frame { scene, camera, index, target }, after)
+    })
+}
+
+/// A film that converges to the truth.
+pub struct Reference<'a> {
+    film: Film<'a>,
+    /// Dispatches so far: each has random numbers of its own.
+    batches: u32,
+}
+
+impl<'a> Reference<'a> {
+    /// With paths that share no random number with those that these settings trace.
+    pub fn new(gpu: &'a Gpu, size: [u32; 2], settings: &Settings) -> Result<Self, Error> {
+        let mut settings = Settings { mode: Mode::Reference, ..settings.clone() };
+        settings.tracer.seed ^= 0x5eed_0000;
+        Ok(Self { film: Film::new(gpu, size, settings)?, batches: 0 })
+    }
+
+    /// The next moment is traced with the random numbers of the first.
+    pub fn rewind(&mut self) {
+        self.batches = 0;
+    }
+
+    /// Traces `paths` per pixel of one moment, calling back after each batch with its paths.
+    pub fn converge(
+        &mut self,
+        scene: &GpuScene,
+        camera: Camera,
+        paths: u32,
+        mut done: impl FnMut(u32),
+    ) -> Result<Vec<[f32; 3]>, Error> {
+        // All batches count alike in the mean, so all are of one size.
+        let batch = (1..=BATCH).rev().find(|batch| paths.is_multiple_of(*batch)).unwrap_or(1);
+        let mut settings = self.film.denoiser.settings().clone();
+        settings.tracer.samples = batch;
+        self.film.denoiser.set_settings(settings)?;
+        self.film.denoiser.reset();
+        for _ in 0..paths / batch {
+            render(&mut self.film, scene, camera, self.batches)?;
+            self.batches = self.batches.wrapping_add(1);
+            done(batch);
+        }
+        Ok(self.film.gpu.read_colors(&self.film.target))
+    }
+}
