@@ -10,7 +10,7 @@
 #import asvgf::color::luminance
 #import asvgf::material::{PI, surface_at}
 
-// Light kinds, as in src/scene/lights.rs.
+// Light kinds, as in src/scene/gpu/light/record.rs.
 const EMITTER: u32 = 0u;
 const POINT: u32 = 1u;
 const DIRECTIONAL: u32 = 2u;

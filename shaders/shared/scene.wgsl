@@ -1,6 +1,6 @@
 #define_import_path asvgf::scene
 
-// The scene as src/scene/upload.rs lays it out: the visibility lookup table of triangle vertices, the BVH that obvhs
+// The scene as src/scene/gpu/assembly.rs lays it out: the visibility lookup table of triangle vertices, the BVH that obvhs
 // builds, placements, surfaces and lights.
 
 struct Scene {
@@ -50,13 +50,13 @@ struct Scene {
 // Materials and lights, the structs below texel by texel.
 @group(1) @binding(5) var materials: texture_2d<u32>;
 @group(1) @binding(6) var lights: texture_2d<u32>;
-// RGBA8 texels of all images; folded into layers as in src/scene/texels.rs where a buffer cannot hold them.
+// RGBA8 texels of all images; folded into layers as in src/scene/gpu/surface/places.rs where a buffer cannot hold them.
 #ifdef FOLDED_IMAGES
 @group(1) @binding(7) var images: texture_2d_array<u32>;
 #else
 @group(1) @binding(7) var<storage, read> images: array<u32>;
 #endif
-// Radiances, packed as in src/scene/sky.rs.
+// Radiances, packed as in src/scene/gpu/light/radiance.rs.
 @group(1) @binding(10) var environment: texture_2d<u32>;
 // Alias table over the cells of the environment: threshold, the other cell, luminance of this cell and of that.
 @group(1) @binding(11) var environment_table: texture_2d<u32>;
@@ -125,7 +125,7 @@ struct Light {
 
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
-// Width of the folded textures, as in src/scene/folded.rs.
+// Width of the folded textures, as in src/scene/gpu/memory/folded.rs.
 fn geometry_word(i: u32) -> vec4<u32> {
 #ifdef STORAGE_READS
     return textureLoad(geometry, vec2(i & 4095u, i >> 12u));

@@ -71,7 +71,7 @@ fn meets_back(row: u32, direction: vec3<f32>) -> bool {
 }
 #endif
 
-// References, as src/scene/bvh.rs makes them: an inner node's number, or a leaf: LEAF, its count and its first row.
+// References, as src/scene/gpu/tree/node.rs makes them: an inner node's number, or a leaf: LEAF, its count and its first row.
 const LEAF: u32 = 0x80000000u;
 const COUNT_SHIFT: u32 = 27u;
 const FIRST_MASK: u32 = 0x07ffffffu;

@@ -16,25 +16,7 @@ const FOLDER: &str = "target/references";
 const TRACERS: [&str; 2] = ["shaders/visibility.wgsl", "shaders/trace.wgsl"];
 
 /// What hands them the scene, and takes the mean. What reads scenes from files is not there: its outcome is hashed.
-const SCENE: [&str; 17] = [
-    "programs/src/tracing.rs",
-    "src/plan/batches.rs",
-    "src/scene/alias.rs",
-    "src/scene/bvh.rs",
-    "src/scene/centre.rs",
-    "src/scene/facets.rs",
-    "src/scene/folded.rs",
-    "src/scene/geometry.rs",
-    "src/scene/instances.rs",
-    "src/scene/lights.rs",
-    "src/scene/materials.rs",
-    "src/scene/sky.rs",
-    "src/scene/snapshot.rs",
-    "src/scene/texels.rs",
-    "src/scene/textures.rs",
-    "src/scene/upload.rs",
-    "src/traced.rs",
-];
+const SCENE: [&str; 4] = ["programs/src/tracing.rs", "src/plan/batches.rs", "src/scene/gpu", "src/traced.rs"];
 
 pub struct Script {
     pub stage: Stage,

@@ -114,7 +114,7 @@ pub const CASES: &[Case] = &[
         bound: ROUNDING,
         origin: ORIGIN,
         measure: counts,
-        breaks: Breaks::Known("none: 10⁶ at one point make a tree too, see the tests of `src/scene/bvh.rs`"),
+        breaks: Breaks::Known("none: 10⁶ at one point make a tree too, see the tests of `src/scene/gpu/tree/build.rs`"),
     },
     Case {
         name: "eyes and rays in awkward places",

@@ -1,0 +1,47 @@
+//! Lights that are no triangles.
+
+/// A light without area (KHR_lights_punctual). Direction is −Z of its node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Light {
+    /// Shape of the emission.
+    pub kind: LightKind,
+    /// Linear colour times intensity: W/(m²) for a directional light (radiometric lux), W/sr for the others.
+    pub intensity: [f32; 3],
+    /// Distance at which the light has faded to nothing, or infinity. Fades as in KHR_lights_punctual.
+    pub range: f32,
+}
+
+/// Shape of a [`Light`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightKind {
+    /// Parallel light from infinitely far away.
+    Directional,
+    /// All directions alike.
+    Point,
+    /// A cone: full intensity inside `inner`, none outside `outer` (half angles, radians).
+    Spot {
+        /// Half angle of the full cone.
+        inner: f32,
+        /// Half angle at which the light ends, > `inner`.
+        outer: f32,
+    },
+}
+
+/// Light from infinitely far away as an equirectangular image: u grows with the azimuth from −X over +Z, +X and −Z…
+/// exactly: direction (x, y, z) is at u = ½ + atan2(z, x)/2π, v = acos(y)/π. The first row is +Y.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Environment {
+    /// Texels per row, ≥ 1.
+    pub width: u32,
+    /// Rows, ≥ 1.
+    pub height: u32,
+    /// `width · height` linear radiances, finite and ≥ 0.
+    pub radiance: Vec<[f32; 3]>,
+}
+
+impl Environment {
+    /// The same radiance from everywhere.
+    pub fn uniform(radiance: [f32; 3]) -> Self {
+        Self { width: 1, height: 1, radiance: vec![radiance] }
+    }
+}

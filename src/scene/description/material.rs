@@ -1,0 +1,99 @@
+//! Surfaces.
+
+use super::Texture;
+
+/// A surface: Lambert + GGX in the metallic-roughness model of glTF 2.0, and light that it emits.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// Name for messages and debugging; may be empty.
+    pub name: String,
+    /// Linear base colour and opacity, each 0…1; multiplies the texture.
+    pub base_color: [f32; 4],
+    /// Base colour (sRGB) and opacity.
+    pub base_color_texture: Option<Texture>,
+    /// 0 = dielectric, 1 = metal; multiplies the blue channel of the texture.
+    pub metallic: f32,
+    /// Perceptual roughness 0…1 (GGX α is its square); multiplies the green channel of the texture.
+    pub roughness: f32,
+    /// Green = roughness, blue = metallic (linear).
+    pub metallic_roughness_texture: Option<Texture>,
+    /// Radiance that the front face emits (every face, where `double_sided`), ≥ 0; multiplies the texture.
+    pub emissive: [f32; 3],
+    /// Emitted colour (sRGB).
+    pub emissive_texture: Option<Texture>,
+    /// How opacity is used.
+    pub alpha: Alpha,
+    /// Whether the back face emits too. Reflection is always two-sided.
+    pub double_sided: bool,
+    /// The base colour is shown as it is, without any light (KHR_materials_unlit); it lights nothing.
+    pub unlit: bool,
+    /// Normal-incidence reflectance (F₀) of the dielectric part, each 0…1: 0.04 for an index of refraction of 1.5, 0 for a
+    /// purely Lambertian surface.
+    pub specular: [f32; 3],
+    /// Reflectance of the dielectric part at grazing incidence (F₉₀), 0…1.
+    pub specular_edge: f32,
+    /// Alpha multiplies `specular` and `specular_edge` (KHR_materials_specular).
+    pub specular_texture: Option<Texture>,
+    /// Colour (sRGB) multiplies `specular` (KHR_materials_specular).
+    pub specular_color_texture: Option<Texture>,
+    /// Back faces do not exist, neither for the camera nor for light, as rasterizers draw them: for outlines made of hulls.
+    pub culled: bool,
+}
+
+impl Default for Material {
+    /// The default material of glTF 2.0, but purely diffuse: white, not metallic, rough, without a dielectric coat.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            base_color: [1.0; 4],
+            base_color_texture: None,
+            metallic: 0.0,
+            roughness: 1.0,
+            metallic_roughness_texture: None,
+            emissive: [0.0; 3],
+            emissive_texture: None,
+            alpha: Alpha::Opaque,
+            double_sided: false,
+            unlit: false,
+            specular: [0.0; 3],
+            specular_edge: 1.0,
+            specular_texture: None,
+            specular_color_texture: None,
+            culled: false,
+        }
+    }
+}
+
+impl Material {
+    /// True if the material's triangles are lights.
+    pub(crate) fn is_emitter(&self) -> bool {
+        !self.unlit && self.emissive.iter().any(|&e| e > 0.0)
+    }
+
+    /// All textures that there are, each with the name of its field.
+    pub(crate) fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
+        [
+            ("base_color_texture", self.base_color_texture),
+            ("metallic_roughness_texture", self.metallic_roughness_texture),
+            ("emissive_texture", self.emissive_texture),
+            ("specular_texture", self.specular_texture),
+            ("specular_color_texture", self.specular_color_texture),
+        ]
+        .into_iter()
+        .filter_map(|(name, texture)| Some((name, texture?)))
+    }
+}
+
+/// How a material's opacity is used.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Alpha {
+    /// Opacity is ignored.
+    #[default]
+    Opaque,
+    /// Points whose opacity is below the cutoff do not exist.
+    Mask(f32),
+    /// The surface covers as much of what lies behind as its opacity: a ray meets it with that probability. Noise is higher
+    /// there, because a path begins on one of the surfaces that a pixel sees. The denoiser keeps the depth, normal and motion
+    /// of the nearest one with an opacity of at least ½, and the albedo of all.
+    Blend,
+}

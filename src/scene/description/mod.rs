@@ -1,0 +1,31 @@
+//! The scene as plain data: what an importer produces, what a host may fill in by hand, and what
+//! [`GpuScene`](crate::scene::GpuScene) uploads.
+//!
+//! Conventions are those of glTF 2.0: right-handed, +Y up, metres, counter-clockwise front faces, matrices as four
+//! columns, quaternions as `[x, y, z, w]`, linear Rec. 709 colour unless a field says otherwise.
+
+mod animation;
+pub mod builtin;
+mod camera;
+mod light;
+mod material;
+mod measure;
+mod mesh;
+mod node;
+mod pose;
+mod problem;
+mod scene;
+mod texture;
+mod validate;
+mod view;
+
+pub use animation::{Animation, Channel, Interpolation, Target};
+pub use camera::Perspective;
+pub use light::{Environment, Light, LightKind};
+pub use material::{Alpha, Material};
+pub use mesh::Mesh;
+pub use node::{IDENTITY, Matrix, Node, Transform, WorldMatrix};
+pub use pose::Pose;
+pub use problem::{SceneError, Warning};
+pub use scene::Scene;
+pub use texture::{Image, Texture, Wrap};

@@ -1,0 +1,51 @@
+//! The hierarchy that places everything.
+
+/// A column-major 4×4 matrix: `m[column][row]`, multiplying column vectors from the left.
+pub type Matrix = [[f32; 4]; 4];
+
+/// The same in double precision. Thousands of kilometres from the origin it still places to a micrometre.
+pub type WorldMatrix = [[f64; 4]; 4];
+
+/// The identity [`Matrix`].
+pub const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+/// One element of the hierarchy.
+#[derive(Clone, Debug, Default)]
+pub struct Node {
+    /// Name for messages and debugging; may be empty.
+    pub name: String,
+    /// Index of the parent node, smaller than this node's own; `None` for a root.
+    pub parent: Option<usize>,
+    /// Placement relative to the parent.
+    pub transform: Transform,
+    /// Meshes placed here (indices into [`Scene::meshes`]).
+    pub meshes: Vec<usize>,
+    /// Light placed here, shining along −Z (index into [`Scene::lights`]).
+    pub light: Option<usize>,
+    /// Camera placed here, looking along −Z with +Y up (index into [`Scene::cameras`]).
+    pub camera: Option<usize>,
+    /// The host will move this node although no animation does: keep it out of the static geometry.
+    pub movable: bool,
+}
+
+/// Placement of a node relative to its parent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Transform {
+    /// `translation · rotation · scale`; only these can be animated.
+    Trs {
+        /// Offset.
+        translation: [f32; 3],
+        /// Unit quaternion `[x, y, z, w]`.
+        rotation: [f32; 4],
+        /// Scale along the node's own axes; may be negative.
+        scale: [f32; 3],
+    },
+    /// Any affine matrix, shear included.
+    Matrix(Matrix),
+}
+
+impl Default for Transform {
+    fn default() -> Self {
+        Self::Trs { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] }
+    }
+}

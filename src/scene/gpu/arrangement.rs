@@ -1,0 +1,123 @@
+//! The parts of a scene on the GPU that follow its pose, as plain data.
+
+use super::geometry::facets::{self, Facet};
+use super::geometry::instances::{self, Instance};
+use super::header::Header;
+use super::light::analytic::AnalyticLight;
+use super::light::table::Lights;
+use super::memory::folded::Texel;
+use super::surface::materials::{GpuMaterial, materials};
+use super::surface::places::Place;
+use super::visible::Visible;
+use crate::scene::description::{Material, Pose, SceneError};
+use glam::DVec3;
+
+/// What moves or dims, and the data that it has in any pose.
+#[derive(Debug)]
+pub(crate) struct Arrangement {
+    /// Where in the world coordinates on the GPU count from. It stays, as the last frame's coordinates count from it too.
+    pub centre: DVec3,
+    /// There are two levels of trees.
+    pub instanced: bool,
+    /// All but the grid, which [`Arrangement::top_level`] adds.
+    pub header: Header,
+    pub instances: Vec<Instance>,
+    pub lights: Lights,
+    pub materials: Vec<Material>,
+    pub images: Vec<Place>,
+    /// Corners of each row, where the scene has so few triangles that each is tested.
+    pub few: Option<Vec<[[f32; 3]; 3]>>,
+    /// Entries of each list of a pose.
+    pub lengths: [usize; 3],
+}
+
+/// The top level of the trees and the instances' records in a pose.
+pub(crate) struct TopLevel {
+    pub header: Header,
+    /// Empty where there is one level.
+    pub texels: Vec<Texel>,
+    pub depth: u32,
+}
+
+/// All triangles in world space.
+pub(crate) struct Facets {
+    pub facets: Vec<Facet>,
+    /// Row of the lookup table and number of the instance.
+    pub owners: Vec<[u32; 4]>,
+}
+
+/// Entries of each list of a pose.
+pub(crate) fn lengths(pose: &Pose) -> [usize; 3] {
+    [pose.world.len(), pose.emission.len(), pose.intensity.len()]
+}
+
+impl Arrangement {
+    /// Checks that a pose is of this scene and finite.
+    pub fn check(&self, pose: &Pose) -> Result<(), SceneError> {
+        let wrong =
+            |element: String, reason: &str| Err(SceneError { file: "pose".into(), element, reason: reason.into() });
+        if lengths(pose) != self.lengths {
+            return wrong("lengths".into(), "differ from the scene's: make it with `Scene::pose` of the same scene");
+        }
+        // What f32 cannot hold is infinite in shaders.
+        let finite = |x: &f64| x.abs() <= f64::from(f32::MAX);
+        if let Some(i) = pose.world.iter().position(|m| !m.iter().flatten().all(finite)) {
+            return wrong(format!("world[{i}]"), "is not finite");
+        }
+        if pose.emission.iter().chain(&pose.intensity).flatten().any(|f| !(f.is_finite() && *f >= 0.0)) {
+            return wrong("emission or intensity".into(), "is negative or not finite");
+        }
+        Ok(())
+    }
+
+    /// The part of a pose that paths see: the nodes where there is something.
+    pub fn visible(&self, pose: &Pose) -> Visible {
+        Visible::new(pose, self.instances.iter().filter_map(|i| i.node).chain(self.lights.nodes()))
+    }
+
+    pub fn top_level(&self, pose: &Pose) -> TopLevel {
+        if !self.instanced {
+            let header = self.header.with_grid(self.instances[0].grid);
+            return TopLevel { header, texels: Vec::new(), depth: 0 };
+        }
+        let placed = instances::place(&self.instances, pose, self.centre, self.header.root());
+        TopLevel { header: self.header.with_grid(placed.grid), texels: placed.texels, depth: placed.depth }
+    }
+
+    /// Three rows of an affine matrix for each instance.
+    pub fn placements(&self, pose: &Pose) -> Vec<Texel> {
+        instances::rows_of(&self.instances, pose, self.centre)
+    }
+
+    pub fn materials(&self, pose: &Pose) -> Vec<GpuMaterial> {
+        materials(&self.materials, &pose.emission, &self.images)
+    }
+
+    /// Puts the lights where they are in a pose. Returns those of the Blinn–Phong gradient.
+    pub fn place_lights(&mut self, pose: &Pose) -> Vec<AnalyticLight> {
+        let placement = |instance: usize| self.instances[instance].placement(pose, self.centre);
+        self.lights.place(&self.materials, pose, self.centre, placement)
+    }
+
+    /// How many facets the shaders are compiled for, where each triangle is tested.
+    pub fn facet_count(&self) -> Option<usize> {
+        let rows = || self.instances.iter().map(|instance| instance.row_count as usize).sum();
+        self.few.is_some().then(|| facets::padded(rows()))
+    }
+
+    /// The triangles of all instances in world space, where each of them is tested.
+    pub fn facets(&self, pose: &Pose) -> Option<Facets> {
+        let (corners, count) = (self.few.as_ref()?, self.facet_count()?);
+        let (mut facets, mut owners) = (Vec::new(), Vec::new());
+        for (number, instance) in self.instances.iter().enumerate() {
+            let placement = instance.placement(pose, self.centre);
+            for row in instance.first_row..instance.first_row + instance.row_count {
+                facets.push(Facet::new(corners[row as usize], placement));
+                owners.push([row, number as u32, 0, 0]);
+            }
+        }
+        facets.resize(count, Facet::default());
+        owners.resize(count, [0; 4]);
+        Some(Facets { facets, owners })
+    }
+}

@@ -1,0 +1,74 @@
+//! The lights that the Blinn–Phong gradient evaluates.
+
+use super::luminance::luminance;
+use super::record::GpuLight;
+use bytemuck::{Pod, Zeroable};
+
+/// The gradient evaluates this many lights at most; the strongest are kept.
+const MOST: usize = 64;
+
+/// `AnalyticLight` of shaders/shared/blinn_phong.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub(crate) struct AnalyticLight {
+    pub position: [f32; 3],
+    pub kind: u32,
+    pub axis: [f32; 3],
+    pub range: f32,
+    pub intensity: [f32; 3],
+    pub spot_scale: f32,
+    pub spot_offset: f32,
+    pub count: u32,
+    pub pad: [u32; 2],
+}
+
+impl From<GpuLight> for AnalyticLight {
+    fn from(light: GpuLight) -> Self {
+        Self {
+            position: light.position,
+            kind: light.kind,
+            axis: light.axis,
+            range: light.range,
+            intensity: light.intensity,
+            spot_scale: light.spot_scale,
+            spot_offset: light.spot_offset,
+            ..Default::default()
+        }
+    }
+}
+
+/// The strongest of the lights, at least one entry, each with their number.
+pub(crate) fn strongest(mut lights: Vec<AnalyticLight>) -> Vec<AnalyticLight> {
+    lights.sort_by(|a, b| luminance(b.intensity).total_cmp(&luminance(a.intensity)));
+    lights.truncate(MOST);
+    let count = lights.len() as u32;
+    lights.resize(lights.len().max(1), AnalyticLight::default());
+    lights.iter_mut().for_each(|light| light.count = count);
+    lights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::passes::Pass;
+    use crate::plan::{Feature, Features};
+    use crate::twins::layout::{assert_layout_in, fields};
+
+    #[test]
+    fn a_light_lies_where_the_gradient_reads_it() {
+        let fields = fields!(AnalyticLight: position, kind, axis, range, intensity, spot_scale, spot_offset, count);
+        let blinn_phong = Features::of(&[Feature::BlinnPhong]);
+        assert_layout_in(Pass::Gradient, blinn_phong, "AnalyticLight", fields, size_of::<AnalyticLight>());
+    }
+
+    #[test]
+    fn the_strongest_lights_are_kept_and_counted() {
+        let light = |strength: usize| AnalyticLight { intensity: [strength as f32; 3], ..Default::default() };
+        let kept = strongest((0..100).map(light).collect());
+        assert!(kept.iter().all(|light| light.count == 64));
+        let strengths: Vec<f32> = kept.iter().map(|light| light.intensity[0]).collect();
+        assert_eq!(strengths, (36..100).rev().map(|strength| strength as f32).collect::<Vec<_>>());
+        // A binding is never empty.
+        assert!(matches!(strongest(Vec::new())[..], [AnalyticLight { count: 0, .. }]));
+    }
+}

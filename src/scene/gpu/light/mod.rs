@@ -1,0 +1,11 @@
+//! Everything that shines, and the tables by which paths choose one of them.
+
+mod alias;
+pub(crate) mod analytic;
+mod emitter;
+mod luminance;
+mod punctual;
+pub(crate) mod radiance;
+pub(crate) mod record;
+pub(crate) mod sky;
+pub(crate) mod table;

@@ -1,0 +1,50 @@
+//! Lights without area.
+
+use super::luminance::luminance;
+use super::record::{DIRECTIONAL, GpuLight, POINT};
+use crate::scene::description::{Light, LightKind};
+use glam::{Mat4, Vec3};
+use std::f64::consts::PI;
+
+/// A light without area and the node that places it.
+#[derive(Debug)]
+pub(crate) struct Punctual {
+    pub node: usize,
+    pub index: usize,
+    pub light: Light,
+}
+
+/// A light without area where its node's placement puts it, `factor` times as strong as described.
+pub(crate) fn placed(light: &Light, placement: Mat4, factor: [f32; 3]) -> GpuLight {
+    let axis = placement.transform_vector3(Vec3::NEG_Z).normalize_or(Vec3::NEG_Z);
+    // KHR_lights_punctual: intensity · saturate(cos·scale + offset)².
+    let (kind, scale, offset) = match light.kind {
+        LightKind::Directional => (DIRECTIONAL, 0.0, 1.0),
+        LightKind::Point => (POINT, 0.0, 1.0),
+        LightKind::Spot { inner, outer } => {
+            let scale = 1.0 / (inner.cos() - outer.cos()).max(1e-3);
+            (POINT, scale, -outer.cos() * scale)
+        }
+    };
+    GpuLight {
+        kind,
+        position: placement.w_axis.truncate().to_array(),
+        axis: axis.to_array(),
+        intensity: [0, 1, 2].map(|c| light.intensity[c] * factor[c]),
+        // Beyond 10¹⁸ its fourth power would overflow; there it never fades.
+        range: light.range.clamp(1e-6, 1e9),
+        spot_scale: scale,
+        spot_offset: offset,
+        ..Default::default()
+    }
+}
+
+/// Power of a light without area, in a scene of this radius: what its probability is proportional to.
+pub(crate) fn power(light: &Light, radius: f64) -> f64 {
+    let intensity = luminance(light.intensity);
+    match light.kind {
+        LightKind::Directional => intensity * PI * radius * radius,
+        LightKind::Point => intensity * 4.0 * PI,
+        LightKind::Spot { outer, .. } => intensity * 2.0 * PI * (1.0 - f64::from(outer).cos()),
+    }
+}

@@ -1,0 +1,19 @@
+//! Buffers that hold what does not change.
+
+use crate::gpu::filled::filled;
+use bytemuck::Pod;
+use wgpu::{Buffer, BufferUsages, Device};
+
+pub(crate) fn buffer(device: &Device, label: &str, contents: &[u8], usage: BufferUsages) -> Buffer {
+    filled(device, &format!("asvgf {label}"), contents, usage)
+}
+
+/// A storage buffer, of at least the bytes that its binding needs.
+pub(crate) fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -> Buffer {
+    let bytes: &[u8] = bytemuck::cast_slice(contents);
+    if bytes.len() >= least {
+        buffer(device, label, bytes, BufferUsages::STORAGE)
+    } else {
+        buffer(device, label, &vec![0; least], BufferUsages::STORAGE)
+    }
+}

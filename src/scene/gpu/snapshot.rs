@@ -1,0 +1,44 @@
+//! A scene in one pose, as far as paths can tell.
+
+use super::light::analytic::AnalyticLight;
+use super::memory::buffers::storage;
+use super::memory::folded::Texel;
+use super::visible::Visible;
+use wgpu::{BindingResource, Buffer, Device};
+
+/// The scene as a denoiser rendered it last, from which it finds out what has moved since. The scene itself knows no last frame, because
+/// several denoisers may show it, each in its own time.
+#[derive(Debug)]
+pub(crate) struct Snapshot {
+    /// The scene's number in this process.
+    pub scene: u64,
+    /// Where what is seen stands, what emits and how strongly.
+    pub visible: Visible,
+    /// Placements of the instances: three rows of an affine matrix each.
+    pub placements: Buffer,
+    /// The lights that the Blinn–Phong gradient evaluates.
+    pub analytic_lights: Buffer,
+}
+
+impl Snapshot {
+    /// Uploads the placements and lights of the scene with this number.
+    pub fn new(device: &Device, scene: u64, visible: Visible, placements: &[Texel], lights: &[AnalyticLight]) -> Self {
+        let placements = storage(device, "placements", placements, 3 * size_of::<Texel>());
+        let analytic_lights = storage(device, "analytic lights", lights, size_of::<AnalyticLight>());
+        Self { scene, visible, placements, analytic_lights }
+    }
+
+    /// Whether it is of the same scene in the same pose.
+    pub fn shows_the_same_as(&self, other: &Self) -> bool {
+        self.scene == other.scene && self.visible == other.visible
+    }
+
+    /// What stands behind a binding that reads the last frame's scene.
+    pub fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
+        match binding {
+            "placements_previous" => Some(self.placements.as_entire_binding()),
+            "analytic_lights_previous" => Some(self.analytic_lights.as_entire_binding()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! The parts of the shaders that a scene needs.
+
+use super::geometry::attributes::Layout;
+use crate::plan::Traits;
+use crate::scene::description::{Alpha, Material, Scene};
+
+/// What the materials and meshes in use ask of the shaders.
+pub(crate) fn traits(scene: &Scene, layout: Layout) -> Traits {
+    let used = || {
+        let placed: Vec<usize> = scene.nodes.iter().flat_map(|n| n.meshes.iter().copied()).collect();
+        scene
+            .meshes
+            .iter()
+            .enumerate()
+            .filter(move |(i, _)| placed.contains(i))
+            .map(|(_, m)| &scene.materials[m.material])
+    };
+    Traits {
+        textures: used().any(|m| m.textures().next().is_some()),
+        shading_normals: layout.normals,
+        vertex_colors: layout.color.is_some(),
+        specular: used().any(|m| !m.unlit && (m.specular != [0.0; 3] || m.metallic > 0.0)),
+        alpha_blend: used().any(|m| m.alpha == Alpha::Blend),
+        alpha_mask: used().any(|m| m.alpha != Alpha::Opaque || m.culled),
+        emitters: used().any(Material::is_emitter),
+        unlit: used().any(|m| m.unlit),
+        ..Default::default()
+    }
+}

@@ -1,0 +1,214 @@
+//! Bounding volume hierarchies, which obvhs builds.
+
+use super::halve::halve;
+use super::layout::{Leaves, Tree, lay_out};
+use glam::Vec3A;
+use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
+use obvhs::{BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
+use std::collections::HashMap;
+
+/// Triangles in a leaf: up to here a test of each is cheaper than another level.
+const LEAF_TRIANGLES: u32 = 2;
+
+/// Triangles with the same box beyond which obvhs is not asked: it merges neighbours pair by pair, and takes quadratic time where
+/// all are equally near.
+const CROWD: usize = 1000;
+
+/// How many triangles share a box, at most.
+fn largest_crowd(triangles: &[Triangle]) -> usize {
+    let mut crowds = HashMap::<[u32; 6], usize>::new();
+    for triangle in triangles {
+        let Aabb { min, max } = triangle.aabb();
+        let key = [min.x, min.y, min.z, max.x, max.y, max.z].map(f32::to_bits);
+        *crowds.entry(key).or_default() += 1;
+    }
+    crowds.into_values().max().unwrap_or(0)
+}
+
+/// A tree over triangles. Its nodes refer to each other from `first_node` on, to triangles from `first_row` on.
+pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32) -> Tree {
+    let triangles: Vec<Triangle> = corners
+        .iter()
+        .map(|t| Triangle { v0: Vec3A::from(t[0]), v1: Vec3A::from(t[1]), v2: Vec3A::from(t[2]) })
+        .collect();
+    let lay_out = |bvh: &Bvh2| lay_out(bvh, triangles.len(), first_node, Leaves::Triangles(first_row));
+    if largest_crowd(&triangles) <= CROWD {
+        let boxes: Vec<Aabb> = (0..).zip(&triangles).map(|(number, t)| unlike(t.aabb(), number)).collect();
+        let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() };
+        let tree = lay_out(&build(&boxes, params));
+        if tree.depth <= DEEPEST {
+            return tree;
+        }
+    }
+    lay_out(&halve(&triangles, LEAF_TRIANGLES as usize))
+}
+
+/// The steps of obvhs' `build_bvh2`, which takes their time too: browsers have no such clock.
+fn build(boxes: &[Aabb], params: BvhBuildParams) -> Bvh2 {
+    let BvhBuildParams { ploc_search_distance, sort_precision, search_depth_threshold, .. } = params;
+    let order = (0..boxes.len() as u32).collect();
+    let builder = &mut PlocBuilder::with_capacity(boxes.len());
+    let mut bvh = builder.build(ploc_search_distance, boxes, order, sort_precision, search_depth_threshold);
+    let mut optimizer = ReinsertionOptimizer::default();
+    optimizer.run(&mut bvh, params.reinsertion_batch_ratio, None);
+    collapse(&mut bvh, params.max_prims_per_leaf, params.collapse_traversal_cost);
+    let ratio = params.reinsertion_batch_ratio * params.post_collapse_reinsertion_batch_ratio_multiplier;
+    optimizer.run(&mut bvh, ratio, None);
+    bvh
+}
+
+/// A box grown by up to a 4096th of its longest side, by a hash of its number. obvhs merges nearest neighbours; where all are
+/// equally near, as in regular grids, it merges across the grid, and rays meet five times as many boxes.
+fn unlike(Aabb { min, max }: Aabb, number: u32) -> Aabb {
+    let most = (max - min).max_element() / 4096.0;
+    // Knuth's multiplicative hash (The Art of Computer Programming 3, 6.4), a number of 24 bits for each side.
+    let part =
+        |side: u32| (number.wrapping_mul(6).wrapping_add(side).wrapping_mul(2_654_435_761) >> 8) as f32 / 16_777_216.0;
+    let parts = |first: u32| Vec3A::new(part(first), part(first + 1), part(first + 2));
+    Aabb { min: min - most * parts(0), max: max + most * parts(3) }
+}
+
+/// Levels of a tree over triangles beyond which it is built otherwise: real geometry needs some thirty, and a traversal's stack
+/// holds 64.
+const DEEPEST: u32 = 48;
+
+/// A tree over the world-space boxes of instances, one per leaf. Its nodes refer to each other from `first_node` on.
+pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]], first_node: u32) -> Tree {
+    let boxes: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(b[0].into(), b[1].into())).collect();
+    let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
+    let bvh = build(&boxes, params);
+    lay_out(&bvh, boxes.len(), first_node, Leaves::Instances)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::node::{COUNT_SHIFT, LEAF};
+    use super::super::quantization::Quantization;
+    use super::*;
+    use obvhs::bvh2::builder;
+    use std::time::Duration;
+
+    fn grid(count: u32) -> Vec<[[f32; 3]; 3]> {
+        (0..count)
+            .map(|i| {
+                let x = i as f32;
+                [[x, 0.0, 0.0], [x + 0.9, 0.0, 0.0], [x, 1.0, (i % 7) as f32]]
+            })
+            .collect()
+    }
+
+    fn unquantize(grid: Quantization, words: [u32; 3]) -> ([f64; 3], [f64; 3]) {
+        let number = |i: usize| f64::from(words[i / 2] >> (16 * (i % 2)) & 0xffff);
+        let at = |i: usize| f64::from(grid.base[i % 3]) + number(i) * f64::from(grid.step[i % 3]);
+        ([at(0), at(1), at(2)], [at(3), at(4), at(5)])
+    }
+
+    /// Visits the whole tree and checks that each child's box holds all that is below it.
+    fn check(tree: &Tree, corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32) {
+        let mut seen = vec![0; corners.len()];
+        let mut pending = vec![0_usize];
+        while let Some(index) = pending.pop() {
+            for child in tree.nodes[index].children {
+                let (low, high) = unquantize(tree.grid, child.bounds);
+                if child.reference & LEAF != 0 {
+                    let (first, count) =
+                        (child.reference & ((1 << COUNT_SHIFT) - 1), child.reference >> COUNT_SHIFT & 15);
+                    for row in first..first + count {
+                        let triangle = tree.order[(row - first_row) as usize] as usize;
+                        seen[triangle] += 1;
+                        for corner in corners[triangle] {
+                            let inside = |axis: usize| (low[axis]..=high[axis]).contains(&f64::from(corner[axis]));
+                            assert!([0, 1, 2].into_iter().all(inside), "{corner:?} is outside {low:?}…{high:?}");
+                        }
+                    }
+                } else {
+                    pending.push((child.reference - first_node) as usize);
+                }
+            }
+        }
+        // Once each; a tree of one leaf has it on both sides of its root.
+        assert!(seen.iter().all(|&s| s == seen[0] && s <= 2));
+    }
+
+    #[test]
+    fn every_triangle_is_in_one_leaf_inside_its_boxes() {
+        for count in [1, 2, 3, 5, 1000] {
+            let corners = grid(count);
+            check(&over_triangles(&corners, 40, 7), &corners, 40, 7);
+        }
+    }
+
+    #[test]
+    fn trees_are_those_of_obvhs() {
+        let boxes: Vec<Aabb> =
+            grid(1000).iter().map(|[a, b, c]| Aabb::from_points(&[*a, *b, *c].map(Vec3A::from))).collect();
+        for params in [BvhBuildParams::medium_build(), BvhBuildParams::fast_build()] {
+            let [ours, theirs] = [build(&boxes, params), builder::build_bvh2(&boxes, params, &mut Duration::default())];
+            assert_eq!(ours.primitive_indices, theirs.primitive_indices);
+            let bytes = |bvh: &Bvh2| bytemuck::cast_slice::<_, u8>(&bvh.nodes).to_vec();
+            assert!(bytes(&ours) == bytes(&theirs));
+        }
+    }
+
+    #[test]
+    fn a_tree_of_nothing_has_a_root_whose_leaves_are_empty() {
+        let tree = over_triangles(&[], 0, 0);
+        assert_eq!(tree.nodes.len(), 1);
+        assert!(tree.nodes[0].children.iter().all(|c| c.reference >> COUNT_SHIFT & 15 == 0));
+    }
+
+    /// What a ray that meets the root can expect to visit: the sum of all boxes' areas, in parts of the root's.
+    fn cost(tree: &Tree) -> f64 {
+        let area = |[low, high]: [[f64; 3]; 2]| {
+            let [x, y, z] = [0, 1, 2].map(|axis| high[axis] - low[axis]);
+            x * y + y * z + z * x
+        };
+        let children = tree.nodes.iter().flat_map(|node| node.children);
+        let boxes = children.map(|child| unquantize(tree.grid, child.bounds)).map(|(low, high)| area([low, high]));
+        boxes.sum::<f64>() / area(tree.bounds.map(|corner| corner.map(f64::from)))
+    }
+
+    /// The box of Cornell with each triangle cut into n², all of one shape.
+    fn cut_box(n: u32) -> Vec<[[f32; 3]; 3]> {
+        let scene = crate::scene::builtin::scene("cornell", "static").unwrap();
+        let whole = scene.meshes.iter().flat_map(|m| m.triangles.iter().map(|t| t.map(|v| m.positions[v as usize])));
+        let cut = |t: [[f32; 3]; 3]| {
+            let at = move |i: u32, j: u32| {
+                let weights = [n - i - j, i, j].map(|part| part as f32 / n as f32);
+                [0, 1, 2].map(|axis| (0..3).map(|k| t[k][axis] * weights[k]).sum())
+            };
+            let upright = move |i, j| [at(i, j), at(i + 1, j), at(i, j + 1)];
+            let turned = move |i, j| [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            let places = |rows: u32| (0..rows).flat_map(move |j| (0..rows - j).map(move |i| (i, j)));
+            places(n).map(move |(i, j)| upright(i, j)).chain(places(n - 1).map(move |(i, j)| turned(i, j)))
+        };
+        whole.flat_map(cut).collect()
+    }
+
+    #[test]
+    fn regular_grids_get_a_good_tree_however_they_are_cut() {
+        // Ties between neighbours made the trees of 50² and 64² four and five times as costly as those of 51².
+        let [usual, few, many] = [51, 50, 64].map(|n| {
+            let corners = cut_box(n);
+            let tree = over_triangles(&corners, 0, 0);
+            check(&tree, &corners, 0, 0);
+            cost(&tree)
+        });
+        println!("{usual:.1}; {few:.1}, {many:.1}");
+        assert!(few < 1.2 * usual && many < 1.2 * usual, "{few}, {many} instead of {usual}");
+    }
+
+    #[test]
+    fn a_million_triangles_at_one_point_make_a_tree_too() {
+        let tree = over_triangles(&vec![[[1.0, 2.0, 3.0]; 3]; 1_000_000], 0, 0);
+        assert!(tree.depth <= 30 && tree.order.len() == 1_000_000, "{}", tree.depth);
+    }
+
+    #[test]
+    fn a_thousand_triangles_at_one_point_make_a_tree_that_a_stack_can_hold() {
+        let corners = vec![[[1.0, 2.0, 3.0]; 3]; 1000];
+        let tree = over_triangles(&corners, 0, 0);
+        check(&tree, &corners, 0, 0);
+        assert!(tree.depth <= 60, "{}", tree.depth);
+    }
+}

@@ -1,0 +1,12 @@
+//! Trees over triangles and over instances: [`build`] has obvhs build them, [`layout`] lays them out for the shaders.
+
+mod build;
+mod halve;
+mod layout;
+mod node;
+mod quantization;
+
+pub(crate) use build::{over_instances, over_triangles};
+pub(crate) use layout::Tree;
+pub(crate) use node::{LARGEST_FIRST, Node};
+pub(crate) use quantization::Quantization;

@@ -1,0 +1,140 @@
+//! Carries an [`Assembly`] out: the buffers and textures of a scene.
+
+use super::arrangement::{Facets, TopLevel};
+use super::assembly::Assembly;
+use super::geometry::instances::NODE_TEXELS;
+use super::light::radiance::pack;
+use super::light::record::GpuLight;
+use super::light::sky::SkyTable;
+use super::memory::buffers::{buffer, storage};
+use super::memory::folded;
+use super::memory::pieces::{self, PIECE, Writer};
+use super::surface::images::Images;
+use super::surface::materials::GpuMaterial;
+use crate::scene::description::Environment;
+use bytemuck::Pod;
+use wgpu::{
+    BindingResource, Buffer, BufferUsages, CommandEncoder, Device, Queue, Texture, TextureFormat, TextureView,
+    TextureViewDimension,
+};
+
+/// A texture and its view.
+type Viewed = (Texture, TextureView);
+
+/// A scene on the GPU, laid out as shaders/shared/scene.wgsl reads it.
+#[derive(Debug)]
+pub(crate) struct Buffers {
+    scene: Buffer,
+    geometry: Viewed,
+    attributes: Buffer,
+    images: Images,
+    materials: Viewed,
+    lights: Viewed,
+    sky: Option<Sky>,
+    /// Triangles and their owners.
+    facets: [Buffer; 2],
+}
+
+#[derive(Debug)]
+struct Sky {
+    radiance: Viewed,
+    table: Viewed,
+}
+
+impl Buffers {
+    pub fn new(device: &Device, queue: &Queue, assembly: &Assembly<'_>) -> Self {
+        let &Assembly { ref header, ref geometry, ref attributes, ref materials, images, ref sky, .. } = assembly;
+        Self {
+            scene: buffer(device, "scene", bytemuck::bytes_of(header), BufferUsages::UNIFORM),
+            geometry: folded(device, queue, "geometry", geometry),
+            attributes: storage(device, "normals and texture coordinates", attributes, 4),
+            images: Images::new(device, queue, images, assembly.traits.folded_images),
+            materials: folded(device, queue, "materials", materials),
+            lights: folded(device, queue, "lights", &assembly.arrangement.lights.table),
+            sky: sky.as_ref().map(|(environment, table)| Sky::new(device, queue, environment, table)),
+            facets: facets(device, assembly.facets.as_ref()),
+        }
+    }
+
+    /// Records the replacement of what stands where.
+    pub fn replace_top_level(&mut self, device: &Device, encoder: &mut CommandEncoder, top_level: &TopLevel) {
+        self.scene = buffer(device, "scene", bytemuck::bytes_of(&top_level.header), BufferUsages::UNIFORM);
+        let first_row = top_level.header.root() / (folded::WIDTH / NODE_TEXELS) as u32;
+        folded::replace(device, encoder, &self.geometry.0, first_row, &top_level.texels);
+    }
+
+    /// Replaces the triangles in world space, where each of them is tested.
+    pub fn replace_facets(&mut self, device: &Device, new: &Facets) {
+        self.facets = facets(device, Some(new));
+    }
+
+    /// Records the replacement of the materials.
+    pub fn replace_materials(&self, device: &Device, encoder: &mut CommandEncoder, materials: &[GpuMaterial]) {
+        folded::replace(device, encoder, &self.materials.0, 0, folded::texels(materials));
+    }
+
+    /// Records the replacement of the lights.
+    pub fn replace_lights(&self, device: &Device, encoder: &mut CommandEncoder, lights: &[GpuLight]) {
+        folded::replace(device, encoder, &self.lights.0, 0, folded::texels(lights));
+    }
+
+    /// The resource behind a binding of shaders/shared/scene.wgsl.
+    pub fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
+        let buffer = match binding {
+            "geometry" => return Some(BindingResource::TextureView(&self.geometry.1)),
+            "materials" => return Some(BindingResource::TextureView(&self.materials.1)),
+            "lights" => return Some(BindingResource::TextureView(&self.lights.1)),
+            "images" => return Some(self.images.resource()),
+            "environment" => return Some(BindingResource::TextureView(&self.sky.as_ref()?.radiance.1)),
+            "environment_table" => return Some(BindingResource::TextureView(&self.sky.as_ref()?.table.1)),
+            "scene" => &self.scene,
+            "attributes" => &self.attributes,
+            "facets" => &self.facets[0],
+            "facet_owners" => &self.facets[1],
+            _ => return None,
+        };
+        Some(buffer.as_entire_binding())
+    }
+
+    /// Bytes of GPU memory.
+    pub fn memory(&self) -> u64 {
+        let sky = self.sky.iter().flat_map(|sky| [&sky.radiance.0, &sky.table.0]);
+        let textures = [&self.geometry.0, &self.materials.0, &self.lights.0].into_iter().chain(sky);
+        let buffers = [&self.attributes].into_iter().chain(&self.facets);
+        textures.map(pieces::bytes).sum::<u64>() + buffers.map(Buffer::size).sum::<u64>() + self.images.bytes()
+    }
+}
+
+impl Sky {
+    /// Uploads an environment piece by piece.
+    fn new(device: &Device, queue: &Queue, environment: &Environment, table: &SkyTable) -> Self {
+        let [width, height] = table.size;
+        let size = [width, height, 1];
+        let radiance = pieces::texture(device, "environment", TextureFormat::Rg32Uint, size, TextureViewDimension::D2);
+        let mut writer = Writer::new(queue);
+        let rows_of_piece = (PIECE / (width as usize * size_of::<[u32; 2]>())).max(1);
+        let mut first_row = 0;
+        for piece in environment.radiance.chunks(rows_of_piece * width as usize) {
+            let packed: Vec<[u32; 2]> = piece.iter().map(|&c| pack(c)).collect();
+            writer.rows(&radiance.0, [0, first_row], bytemuck::cast_slice(&packed));
+            first_row += rows_of_piece as u32;
+        }
+        Self { radiance, table: folded(device, queue, "cells of the environment", &table.texels) }
+    }
+}
+
+fn folded<T: Pod>(device: &Device, queue: &Queue, label: &str, values: &[T]) -> Viewed {
+    let texture = folded::texture(device, queue, label, folded::texels(values));
+    let view = texture.create_view(&Default::default());
+    (texture, view)
+}
+
+/// The triangles and their owners; shaders that bind none get a placeholder.
+fn facets(device: &Device, facets: Option<&Facets>) -> [Buffer; 2] {
+    let Some(Facets { facets, owners }) = facets else {
+        let empty = storage(device, "placeholder", &[0_u32; 4], 16);
+        return [empty.clone(), empty];
+    };
+    let uniform = |label, contents| buffer(device, label, contents, BufferUsages::UNIFORM);
+    [uniform("facets", bytemuck::cast_slice(facets)), uniform("owners of facets", bytemuck::cast_slice(owners))]
+}

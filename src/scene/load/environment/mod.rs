@@ -1,0 +1,63 @@
+//! Environment maps from files.
+
+mod exr;
+mod picture;
+mod primaries;
+mod radiance;
+
+use std::io::Cursor;
+use std::path::Path;
+
+use image::{DynamicImage, ImageReader};
+
+use crate::image_io::{Format, limits, read_file, recognise};
+use crate::scene::description::{Environment, SceneError, Warning};
+use crate::scene::load::common::srgb::linear_from_srgb;
+use picture::{Picture, clean, odd_shape};
+
+impl Environment {
+    /// Reads an equirectangular image. Its first bytes decide how, whatever its name is:
+    ///
+    /// * Radiance HDR (RGBE or XYZE, signed or not, in any of the eight orientations, with `EXPOSURE`, `COLORCORR` and `PRIMARIES`) and
+    ///   EXR (colours or luminance and chroma, chromaticities converted to Rec. 709, the data window placed in the display window) hold
+    ///   linear radiance.
+    /// * PNG, JPEG, TGA, BMP, TIFF and WebP are taken to be sRGB with 1 as the largest radiance, floating-point TIFF to be linear.
+    ///
+    /// Negative channels and NaN become 0, infinity 65504, each with a warning that tells how many they are.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be read or decoded, an image of more than 16384 texels a side, or an EXR file without colours.
+    pub fn load(path: impl AsRef<Path>) -> Result<(Self, Vec<Warning>), SceneError> {
+        let path = path.as_ref();
+        let error =
+            |reason: String| SceneError { file: path.display().to_string(), element: "environment".into(), reason };
+        let (mut environment, mut reasons) = read(path).map_err(error)?;
+        reasons.extend(clean(&mut environment.radiance, true));
+        reasons.extend(odd_shape(environment.width, environment.height));
+        let warning = |reason| Warning { element: "environment".into(), reason };
+        Ok((environment, reasons.into_iter().map(warning).collect()))
+    }
+}
+
+fn read(path: &Path) -> Result<Picture, String> {
+    let bytes = read_file(path)?;
+    if bytes.starts_with(b"\x76\x2F\x31\x01") {
+        drop(bytes);
+        return exr::read(path);
+    }
+    if radiance::is_radiance(&bytes) {
+        return radiance::read(&bytes);
+    }
+    let format = match recognise(&bytes)? {
+        Format::Image(format) => format,
+        Format::Ktx2 => return Err("is a KTX2 file, which is not read as an environment".into()),
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits());
+    let image = reader.decode().map_err(|error| format!("cannot be decoded: {error}"))?;
+    let linear = matches!(image, DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_));
+    let image = image.into_rgb32f();
+    let radiance = image.pixels().map(|texel| if linear { texel.0 } else { texel.0.map(linear_from_srgb) }).collect();
+    Ok((Environment { width: image.width(), height: image.height(), radiance }, Vec::new()))
+}

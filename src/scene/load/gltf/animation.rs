@@ -1,0 +1,156 @@
+//! Animations of nodes.
+
+use std::collections::HashSet;
+
+use gltf::json::accessor::{ComponentType, Type};
+use gltf::json::animation::{self as json, Property, Sampler};
+use gltf::json::validation::Checked;
+
+use super::accessor::{Elements, REAL};
+use super::node::Places;
+use super::source::{Source, lookup};
+use crate::scene::description::{Animation, Channel, Interpolation, Scene, Target};
+use crate::scene::load::common::report::{Fault, Report};
+
+/// Most values that the channels of one file may have together. Channels may share accessors, so that the size of the
+/// file alone does not bound them.
+const MAX_VALUES: usize = 1 << 25;
+
+/// Reads all animations, which keep their indices. Channels of nodes that are not in the scene are left out.
+pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene, places: &Places) {
+    let mut values = 0;
+    for (index, animation) in source.root.animations.iter().enumerate() {
+        let mut channels = Vec::new();
+        let mut targets = HashSet::new();
+        for (number, channel) in animation.channels.iter().enumerate() {
+            let element = format!("animations[{index}].channels[{number}]");
+            match read_channel(source, animation, index, channel, &element, places, report) {
+                Ok(Some(channel)) if !targets.insert(channel.target) => {
+                    report.warn(element, "an earlier channel has the same target; this one is left out");
+                }
+                Ok(Some(channel)) if values + channel.values.len() > MAX_VALUES => {
+                    let reason = format!("the file has more than {MAX_VALUES} animated values; it is left out");
+                    report.warn_once(element, reason);
+                }
+                Ok(Some(channel)) => {
+                    values += channel.values.len();
+                    channels.push(channel);
+                }
+                Ok(None) => {}
+                Err(fault) => report.replace(fault, "the channel is left out"),
+            }
+        }
+        let name = animation.name.clone().unwrap_or_else(|| format!("animation {index}"));
+        scene.animations.push(Animation { name, channels });
+    }
+}
+
+/// Reads a channel. `None` where it moves nothing that is drawn.
+fn read_channel(
+    source: &Source<'_>,
+    animation: &json::Animation,
+    index: usize,
+    channel: &json::Channel,
+    element: &str,
+    places: &Places,
+    report: &mut Report,
+) -> Result<Option<Channel>, Fault> {
+    source.get(channel.target.node, &format!("{element}.target.node"))?;
+    let Some(&node) = places.get(&channel.target.node.value()) else { return Ok(None) };
+    let (target, shape) = match channel.target.path {
+        Checked::Valid(Property::Translation) => (Target::Translation(node), Type::Vec3),
+        Checked::Valid(Property::Rotation) => (Target::Rotation(node), Type::Vec4),
+        Checked::Valid(Property::Scale) => (Target::Scale(node), Type::Vec3),
+        Checked::Valid(Property::MorphTargetWeights) => {
+            report.warn_once(element, "animated morph targets are not read; the shape at rest is drawn");
+            return Ok(None);
+        }
+        Checked::Invalid => {
+            let reason = "is none of translation, rotation, scale and weights";
+            return Err(Fault::new(format!("{element}.target.path"), reason));
+        }
+    };
+    let sampler = lookup(&animation.samplers, channel.sampler, &format!("{element}.sampler"))?;
+    read(source, sampler, target, shape, &format!("animations[{index}].samplers[{}]", channel.sampler), report)
+        .map(Some)
+}
+
+fn read(
+    source: &Source<'_>,
+    sampler: &Sampler,
+    target: Target,
+    shape: Type,
+    element: &str,
+    report: &mut Report,
+) -> Result<Channel, Fault> {
+    let (interpolation, per_key) = match sampler.interpolation {
+        Checked::Valid(json::Interpolation::Step) => (Interpolation::Step, 1),
+        Checked::Valid(json::Interpolation::Linear) => (Interpolation::Linear, 1),
+        Checked::Valid(json::Interpolation::CubicSpline) => (Interpolation::CubicSpline, 3),
+        Checked::Invalid => {
+            let reason = "is none of LINEAR, STEP and CUBICSPLINE";
+            report.replace(Fault::new(format!("{element}.interpolation"), reason), "LINEAR is used");
+            (Interpolation::Linear, 1)
+        }
+    };
+    let (input, output) = (format!("{element}.input"), format!("{element}.output"));
+    let times = Elements::open(source, sampler.input, Type::Scalar, &[ComponentType::F32], &input)?;
+    let values = Elements::open(source, sampler.output, shape, REAL, &output)?;
+    let (keys, outputs) = (times.len(), values.len());
+    if keys == 0 {
+        return Err(Fault::new(input, "there are no keys"));
+    }
+    if outputs > MAX_VALUES {
+        return Err(Fault::new(output, format!("{outputs} values; at most {MAX_VALUES} are read")));
+    }
+    if outputs % per_key != 0 || outputs == 0 {
+        return Err(Fault::new(output, format!("{outputs} values for {keys} keys, where each has {per_key}")));
+    }
+    if outputs / per_key != keys {
+        let reason = format!("{outputs} values for {keys} keys, where each has {per_key}");
+        report.replace(Fault::new(&output, reason), "keys without values, and values without keys, are left out");
+    }
+    let mut kept = Keys::default();
+    for key in 0..keys.min(outputs / per_key) {
+        let own: Vec<[f32; 4]> = (0..per_key).map(|part| values.vector(key * per_key + part)).collect();
+        kept.add(times.vector::<1>(key)[0], &own);
+    }
+    let broken = Fault::new(&input, format!("{} keys are not finite", kept.broken));
+    match kept {
+        Keys { times, .. } if times.is_empty() => return Err(broken),
+        Keys { disordered: true, .. } => return Err(Fault::new(input, "key times decrease")),
+        Keys { broken: 0, .. } => {}
+        _ => report.replace(broken, "they are left out"),
+    }
+    Ok(Channel { target, interpolation, times: kept.times, values: kept.values })
+}
+
+/// Keys whose times increase.
+#[derive(Default)]
+struct Keys {
+    times: Vec<f32>,
+    values: Vec<[f32; 4]>,
+    /// Keys that are not finite.
+    broken: usize,
+    disordered: bool,
+}
+
+impl Keys {
+    /// Adds a key. Two keys of the same time are how some exporters write a jump: the second one is an instant later.
+    fn add(&mut self, time: f32, values: &[[f32; 4]]) {
+        if !time.is_finite() || values.iter().flatten().any(|number| !number.is_finite()) {
+            self.broken += 1;
+            return;
+        }
+        let later = match self.times.last() {
+            Some(&last) if time <= last => {
+                // As many keys of one time as there are move by as many instants.
+                self.disordered |= time < last - 1e-5 * last.abs().max(1.0);
+                last.next_up()
+            }
+            _ => time,
+        };
+        self.times.push(later);
+        self.values.extend_from_slice(values);
+    }
+}

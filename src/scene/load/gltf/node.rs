@@ -1,0 +1,231 @@
+//! The node hierarchy of the default scene.
+
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+use glam::DMat4;
+use gltf::json::{Index, Node as NodeSource};
+
+use super::deform::{Deformation, Skin, check_influences};
+use super::instancing::instances;
+use super::mesh::Meshes;
+use super::source::{Source, lookup};
+use super::transform::{separate, transform, world};
+use super::{camera, light};
+use crate::scene::description::{Node, Scene};
+use crate::scene::load::common::report::Report;
+
+/// Where each node of the file that is in the scene came to lie in [`Scene::nodes`].
+pub(super) type Places = HashMap<usize, usize>;
+
+/// A node and its parent, if it has one.
+type Link = (Index<NodeSource>, Option<Index<NodeSource>>);
+
+/// Reads the nodes of the default scene, and the meshes, lights and cameras that they place.
+pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Places {
+    let lights = light::read_all(source, report, scene);
+    let cameras = camera::read_all(source, report, scene);
+    let animated = animated(source);
+    let mut shapes = Shapes { source, meshes: Meshes::new(source), world: None, skins: HashMap::new() };
+    let mut places = Places::new();
+    let mut placed = 0;
+
+    for (index, parent) in ordered(source, report) {
+        let element = format!("nodes[{index}]");
+        let Ok(node) = source.get(index, &element) else { continue };
+        let light = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
+        let light = light.and_then(|light| {
+            let found = lookup(light::listed(source), light.light, &format!("{element}.light"));
+            found.map_err(|fault| report.replace(fault, "it is left out")).ok()?;
+            lights.get(light.light.value()).copied().flatten()
+        });
+        let camera = node.camera.and_then(|camera| {
+            let found = source.get(camera, &format!("{element}.camera"));
+            found.map_err(|fault| report.replace(fault, "it is left out")).ok()?;
+            cameras.get(camera.value()).copied().flatten()
+        });
+        let transform = transform(node, &element, report);
+        let transform =
+            if animated.contains(&index.value()) { separate(transform, &element, report) } else { transform };
+        let (meshes, skinned) = shapes.of(node, &element, report, scene);
+        let place = scene.nodes.len();
+        places.insert(index.value(), place);
+        let name = node.name.clone().unwrap_or_default();
+        let parent = parent.and_then(|parent| places.get(&parent.value())).copied();
+        let own = Node { name: name.clone(), parent, transform, light, camera, ..Node::default() };
+        if skinned {
+            let others = node.extensions.as_ref().map(|extensions| &extensions.others);
+            if others.is_some_and(|others| others.contains_key("EXT_mesh_gpu_instancing")) {
+                report.warn(
+                    format!("{element}.EXT_mesh_gpu_instancing"),
+                    "is not read beside a skin; the mesh is drawn once",
+                );
+            }
+            // The joints place a skinned mesh, and the transform of its node does not (glTF 2.0, 3.7.3.3).
+            scene.nodes.extend([own, Node { name, meshes, ..Node::default() }]);
+        } else if let Some(transforms) = instances(source, node, &element, &mut placed, report) {
+            scene.nodes.push(own);
+            let instance = |transform| Node {
+                name: name.clone(),
+                parent: Some(place),
+                transform,
+                meshes: meshes.clone(),
+                ..Node::default()
+            };
+            scene.nodes.extend(transforms.into_iter().map(instance));
+        } else {
+            scene.nodes.push(Node { meshes, ..own });
+        }
+    }
+    warn_of_moving_joints(source, report);
+    places
+}
+
+/// The meshes in the shapes that nodes give them.
+struct Shapes<'a> {
+    source: &'a Source<'a>,
+    meshes: Meshes<'a>,
+    /// The matrix of each node of the file, once a skin asks for it.
+    world: Option<Vec<DMat4>>,
+    skins: HashMap<usize, Option<Rc<Skin>>>,
+}
+
+impl Shapes<'_> {
+    /// The meshes of a node, and whether a skin places them.
+    fn of(&mut self, node: &NodeSource, element: &str, report: &mut Report, scene: &mut Scene) -> (Vec<usize>, bool) {
+        let Some(index) = node.mesh else { return (Vec::new(), false) };
+        let mesh = match self.source.get(index, &format!("{element}.mesh")) {
+            Ok(mesh) => mesh,
+            Err(fault) => {
+                report.lose(fault);
+                return (Vec::new(), false);
+            }
+        };
+        // An empty list is no list.
+        let weights = node
+            .weights
+            .clone()
+            .filter(|weights| !weights.is_empty())
+            .or_else(|| mesh.weights.clone())
+            .unwrap_or_default();
+        let mut deformation = Deformation { weights, skin: None };
+        if deformation.weights.iter().any(|weight| !weight.is_finite()) {
+            report.warn(format!("{element}.weights"), "a weight is not finite; 0 is used");
+            deformation.weights.iter_mut().filter(|weight| !weight.is_finite()).for_each(|weight| *weight = 0.0);
+        }
+        deformation.skin = node.skin.and_then(|skin| {
+            let known = self.skins.entry(skin.value()).or_insert_with(|| {
+                let world = self.world.get_or_insert_with(|| world(self.source));
+                let read = Skin::read(self.source, skin, world, &format!("{element}.skin"));
+                let instead = "the mesh is drawn without its skin";
+                read.map(Rc::new).map_err(|fault| report.replace(fault, instead)).ok()
+            });
+            known.clone()
+        });
+        if deformation.skin.is_some() {
+            let checked = check_influences(self.source, mesh, &format!("meshes[{index}]"));
+            if let Err(fault) = checked {
+                report.replace(fault, "the mesh is drawn where its node is");
+                deformation.skin = None;
+            }
+        }
+        let meshes = self.meshes.get(index, &deformation, report, scene);
+        (meshes, deformation.skin.is_some())
+    }
+}
+
+/// The nodes of the default scene, each with its parent, parents first, each once.
+fn ordered(source: &Source<'_>, report: &mut Report) -> Vec<Link> {
+    let mut roots = roots(source, report);
+    roots.retain(|&root| exists(source, root, "scene.nodes", report));
+    let children: Vec<Vec<Index<NodeSource>>> = source
+        .root
+        .nodes
+        .iter()
+        .enumerate()
+        .map(|(node, description)| {
+            let user = format!("nodes[{node}].children");
+            let listed = description.children.as_deref().unwrap_or_default();
+            listed.iter().copied().filter(|&child| exists(source, child, &user, report)).collect()
+        })
+        .collect();
+
+    // A scene may list a node that is also the child of another one. It is drawn once, below its parent.
+    let mut reachable = HashSet::new();
+    let mut below = HashSet::new();
+    let mut open = roots.clone();
+    while let Some(node) = open.pop() {
+        if reachable.insert(node.value()) {
+            below.extend(children[node.value()].iter().map(Index::value));
+            open.extend(&children[node.value()]);
+        }
+    }
+
+    let mut order = Vec::with_capacity(reachable.len());
+    let mut seen = HashSet::new();
+    let mut open: Vec<Link> =
+        roots.iter().rev().filter(|root| !below.contains(&root.value())).map(|&root| (root, None)).collect();
+    loop {
+        while let Some((node, parent)) = open.pop() {
+            if seen.insert(node.value()) {
+                order.push((node, parent));
+                open.extend(children[node.value()].iter().rev().map(|&child| (child, Some(node))));
+            } else if parent.is_some() {
+                let reason = "is the child of more than one node, or its own ancestor; it is drawn once";
+                report.warn(format!("nodes[{node}]"), reason);
+            }
+        }
+        // A circle has no root of its own.
+        let Some(&next) = reachable.iter().filter(|node| !seen.contains(node)).min() else { break };
+        open.push((Index::new(next as u32), None));
+    }
+    order
+}
+
+/// Whether there is such a node; warns if not.
+fn exists(source: &Source<'_>, node: Index<NodeSource>, user: &str, report: &mut Report) -> bool {
+    let found = source.get(node, user);
+    found.map_err(|fault| report.replace(fault, "it is left out")).is_ok()
+}
+
+/// The roots of the default scene: the one that the file names, else its first, else every node without a parent.
+fn roots(source: &Source<'_>, report: &mut Report) -> Vec<Index<NodeSource>> {
+    let root = &source.root;
+    if let Some(scene) = root.scene {
+        match source.get(scene, "scene") {
+            Ok(scene) => return scene.nodes.clone(),
+            Err(fault) => report.replace(fault, "the first scene is drawn"),
+        }
+    }
+    if let Some(first) = root.scenes.first() {
+        return first.nodes.clone();
+    }
+    if !root.nodes.is_empty() {
+        report.warn("scenes", "the file has no scene; all its nodes are drawn");
+    }
+    let children: HashSet<usize> =
+        root.nodes.iter().flat_map(|node| node.children.iter().flatten()).map(Index::value).collect();
+    let orphans = (0..root.nodes.len()).filter(|node| !children.contains(node));
+    orphans.filter_map(|node| u32::try_from(node).ok()).map(Index::new).collect()
+}
+
+/// The nodes that some animation moves.
+fn animated(source: &Source<'_>) -> HashSet<usize> {
+    let channels = source.root.animations.iter().flat_map(|animation| &animation.channels);
+    channels.map(|channel| channel.target.node.value()).collect()
+}
+
+/// Says that skins are drawn at rest, if an animation moves one of their joints.
+fn warn_of_moving_joints(source: &Source<'_>, report: &mut Report) {
+    let nodes = &source.root.nodes;
+    let mut moving = animated(source);
+    let mut open: Vec<usize> = moving.iter().copied().collect();
+    while let Some(node) = open.pop() {
+        let children = nodes.get(node).into_iter().flat_map(|node| node.children.iter().flatten());
+        open.extend(children.map(Index::value).filter(|&child| moving.insert(child)));
+    }
+    let moves = |skin: &gltf::json::Skin| skin.joints.iter().any(|joint| moving.contains(&joint.value()));
+    if let Some(skin) = source.root.skins.iter().position(moves) {
+        report.warn(format!("skins[{skin}]"), "animated skins are not read; they are drawn at rest");
+    }
+}

@@ -1,0 +1,110 @@
+//! Placements of nodes.
+
+use std::collections::HashMap;
+
+use glam::{Affine3A, DMat4, Mat4, Quat, Vec4};
+use gltf::json::Node as NodeSource;
+
+use super::source::Source;
+use crate::scene::description::Transform;
+use crate::scene::load::common::report::{Fault, Report};
+
+/// The placement of a node relative to its parent. A part of it that is broken is that of the identity.
+pub(super) fn transform(node: &NodeSource, element: &str, report: &mut Report) -> Transform {
+    let (transform, faults) = read(node);
+    for (name, reason, instead) in faults {
+        report.replace(Fault::new(format!("{element}.{name}"), reason), instead);
+    }
+    transform
+}
+
+/// A member of a node, what is wrong with it, and what stands for it.
+type Broken = (&'static str, String, &'static str);
+
+fn read(node: &NodeSource) -> (Transform, Vec<Broken>) {
+    let mut faults: Vec<Broken> = Vec::new();
+    let mut finite = |numbers: &[f32], name: &'static str| {
+        let finite = numbers.iter().all(|number| number.is_finite());
+        if !finite {
+            faults.push((name, format!("is not finite: {numbers:?}"), "the identity is used"));
+        }
+        finite
+    };
+    if let Some(matrix) = node.matrix.filter(|matrix| finite(matrix, "matrix")) {
+        let columns = Mat4::from_cols_array(&matrix);
+        let last_row = columns.row(3);
+        // Exporters that multiply matrices leave rounding errors here.
+        if !last_row.abs_diff_eq(Vec4::W, 1e-4) {
+            let reason = format!("its last row is {last_row}, where 0, 0, 0, 1 belongs");
+            faults.push(("matrix", reason, "the rest of it is used"));
+        }
+        let affine = Affine3A::from_mat4(columns);
+        return (Transform::Matrix(Mat4::from(affine).to_cols_array_2d()), faults);
+    }
+    let translation = node.translation.filter(|translation| finite(translation, "translation"));
+    let scale = node.scale.filter(|scale| finite(scale, "scale"));
+    let rotation = node.rotation.map(|rotation| rotation.0).filter(|rotation| finite(rotation, "rotation"));
+    let rotation = rotation.and_then(|rotation| {
+        let unit = Vec4::from(rotation).try_normalize();
+        if unit.is_none() {
+            let reason = format!("{rotation:?} is not a rotation: its length is 0");
+            faults.push(("rotation", reason, "the identity is used"));
+        }
+        unit
+    });
+    let transform = Transform::Trs {
+        translation: translation.unwrap_or_default(),
+        rotation: rotation.unwrap_or(Vec4::W).to_array(),
+        scale: scale.unwrap_or([1.0; 3]),
+    };
+    (transform, faults)
+}
+
+/// Makes a transform one that can be animated.
+pub(super) fn separate(transform: Transform, element: &str, report: &mut Report) -> Transform {
+    let Transform::Matrix(matrix) = transform else { return transform };
+    let matrix = Mat4::from_cols_array_2d(&matrix);
+    let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
+    report.warn(element, "is animated though it has a matrix; the matrix is split, and shear in it is lost");
+    let rotation = if rotation.is_finite() { rotation } else { Quat::IDENTITY };
+    Transform::Trs { translation: translation.into(), rotation: rotation.into(), scale: scale.into() }
+}
+
+/// The matrix of each node of the file at rest, whether its scene is drawn or not: joints may lie anywhere.
+pub(super) fn world(source: &Source<'_>) -> Vec<DMat4> {
+    let nodes = &source.root.nodes;
+    let mut parents = HashMap::new();
+    for (index, node) in nodes.iter().enumerate() {
+        for child in node.children.iter().flatten() {
+            parents.entry(child.value()).or_insert(index);
+        }
+    }
+    let local: Vec<DMat4> = nodes.iter().map(|node| matrix(read(node).0)).collect();
+    let mut world: Vec<Option<DMat4>> = vec![None; nodes.len()];
+    for node in 0..nodes.len() {
+        // Up to an ancestor whose matrix is known, then down again. The count ends cycles.
+        let mut way = vec![node];
+        while let Some(&parent) = way.last().and_then(|last| parents.get(last)) {
+            if world[parent].is_some() || way.len() > nodes.len() {
+                break;
+            }
+            way.push(parent);
+        }
+        for node in way.into_iter().rev() {
+            let above = parents.get(&node).and_then(|&parent| world[parent]).unwrap_or_default();
+            world[node].get_or_insert(above * local[node]);
+        }
+    }
+    world.into_iter().map(Option::unwrap_or_default).collect()
+}
+
+fn matrix(transform: Transform) -> DMat4 {
+    match transform {
+        Transform::Matrix(matrix) => Mat4::from_cols_array_2d(&matrix).as_dmat4(),
+        Transform::Trs { translation, rotation, scale } => DMat4::from_scale_rotation_translation(
+            glam::Vec3::from(scale).as_dvec3(),
+            Quat::from_array(rotation).as_dquat(),
+            glam::Vec3::from(translation).as_dvec3(),
+        ),
+    }
+}
