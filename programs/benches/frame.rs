@@ -4,7 +4,7 @@
 //! second. Compare only figures of one run.
 
 use asvgf::scene::{GpuScene, builtin};
-use asvgf::{Camera, Settings, View};
+use asvgf::{Settings, View};
 use asvgf_programs::film::Film;
 use asvgf_programs::gpu::Gpu;
 use asvgf_programs::times::{Clock, median};
@@ -89,8 +89,7 @@ fn measure(
     let mut samples = BTreeMap::<&'static str, Vec<f64>>::new();
     for index in 0..WARM_UP + frames {
         let pose = scene.pose(Some(0), index as f32 / 30.0);
-        let view = scene.camera_node().and_then(|n| scene.camera_view(&pose, n)).expect("a camera");
-        let camera = Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] };
+        let camera = scene.camera_node().and_then(|n| scene.camera_view(&pose, n)).expect("a camera");
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         uploaded.update(&gpu.device, &mut encoder, &pose).expect("a pose of the scene");
         gpu.queue.submit([encoder.finish()]);

@@ -10,7 +10,7 @@
 use asvgf::scene::{
     self, Alpha, Environment, GpuScene, Image, Light, LightKind, Material, Mesh, Node, Scene, Texture, builtin,
 };
-use asvgf::{Camera, DenoiserDescriptor, FilterSettings, Frame, Gradient, Settings, Specialize};
+use asvgf::{DenoiserDescriptor, FilterSettings, Frame, Gradient, Settings, Specialize};
 use asvgf_programs::film::Film;
 use asvgf_programs::gpu::Gpu;
 use asvgf_programs::program::repository;
@@ -138,8 +138,7 @@ fn row(gpu: &Gpu, scene: Scene, case: &Case, frames: usize) -> String {
         if case.animation == "move-light" && index % 2 == 1 {
             pose.emission.iter_mut().flatten().for_each(|factor| *factor *= 0.9);
         }
-        let view = scene.camera_node().and_then(|n| scene.camera_view(&pose, n)).expect("a camera");
-        let camera = Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] };
+        let camera = scene.camera_node().and_then(|n| scene.camera_view(&pose, n)).expect("a camera");
         let device = &gpu.device;
         let uploaded = &mut uploaded;
         let passes = film.expose(|denoiser, encoder, target, after| {

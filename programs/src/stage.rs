@@ -60,10 +60,7 @@ impl Stage {
     /// From where a frame is seen: the options first, then the scene's own camera, then one that frames the scene.
     pub fn camera(&self, pose: &Pose, frame: u32) -> Camera {
         let own = self.scene.camera_node().and_then(|node| self.scene.camera_view(pose, node));
-        let base = match own {
-            Some(v) => Camera { eye: v.eye, target: v.target, up: v.up, fov_y: v.fov_y, jitter: [0.0; 2] },
-            None => framing(self.bounds, self.aspect, self.viewpoint.fov_y.unwrap_or(0.7)),
-        };
+        let base = own.unwrap_or_else(|| framing(self.bounds, self.aspect, self.viewpoint.fov_y.unwrap_or(0.7)));
         let v = &self.viewpoint;
         let centre = (0.5 * (self.bounds[0] + self.bounds[1])).to_array();
         let moved = v.eye.is_some() || v.target.is_some();

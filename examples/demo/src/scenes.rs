@@ -135,10 +135,7 @@ impl Stage {
     /// The camera of the scene, or one that frames it.
     pub fn camera(&self, pose: &Pose, aspect: f32) -> Camera {
         let own = self.scene.camera_node().and_then(|node| self.scene.camera_view(pose, node));
-        match own {
-            Some(v) => Camera { eye: v.eye, target: v.target, up: v.up, fov_y: v.fov_y, jitter: [0.0; 2] },
-            None => framing(self.bounds, aspect, 0.7),
-        }
+        own.unwrap_or_else(|| framing(self.bounds, aspect, 0.7))
     }
 
     /// Whether an animation moves the camera.

@@ -9,7 +9,7 @@ use crate::report::work::CODE;
 use crate::times::{PassTimes, median};
 use crate::tracing;
 use asvgf::scene::{GpuScene, Scene, builtin};
-use asvgf::{Camera, Settings, View};
+use asvgf::{Settings, View};
 use serde::{Deserialize, Serialize};
 use std::error::Error;
 use std::path::Path;
@@ -95,8 +95,7 @@ fn count(scene: &Scene) -> usize {
 fn measure(gpu: &Gpu, scene: &Scene, size: [u32; 2]) -> Result<Cost, Box<dyn Error>> {
     let uploaded = GpuScene::new(&gpu.device, &gpu.queue, scene)?;
     let pose = scene.pose(None, 0.0);
-    let view = scene.camera_node().and_then(|node| scene.camera_view(&pose, node)).ok_or("no camera")?;
-    let camera = Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] };
+    let camera = scene.camera_node().and_then(|node| scene.camera_view(&pose, node)).ok_or("no camera")?;
     let mut film = Film::new(gpu, size, Settings::adaptive())?;
     let mut frames: Vec<PassTimes> = Vec::new();
     for index in 0..WARM_UP + FRAMES {

@@ -1,7 +1,7 @@
 //! Measurements of a few small frames.
 
 use asvgf::scene::{GpuScene, builtin};
-use asvgf::{Camera, Settings};
+use asvgf::Settings;
 use asvgf_programs::gpu::Gpu;
 use asvgf_programs::report::measure::{self, Output};
 use asvgf_programs::report::methods::{CONTROL, DEFAULT, all};
@@ -80,8 +80,7 @@ fn noise(gpu: &Gpu, paths: u32, moves: bool) -> f64 {
     if !moves {
         move_to(gpu, &mut uploaded, &pose).unwrap();
     }
-    let seen = scene.camera_view(&pose, scene.camera_node().unwrap()).unwrap();
-    let camera = Camera { eye: seen.eye, target: seen.target, up: seen.up, fov_y: seen.fov_y, jitter: [0.0; 2] };
+    let camera = scene.camera_view(&pose, scene.camera_node().unwrap()).unwrap();
     let mut reference = Reference::new(gpu, [32, 18], &Settings::adaptive()).unwrap();
     let mut image = || reference.converge(&uploaded, camera, paths, |_| {}).unwrap();
     let (a, b) = (image(), image());

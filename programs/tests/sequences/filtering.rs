@@ -51,7 +51,7 @@ fn the_path_tracers_frames_give_the_image_that_it_made_of_them() {
         uploaded.update(&gpu.device, &mut encoder, &pose).unwrap();
         gpu.queue.submit([encoder.finish()]);
         let seen = scene.camera_view(&pose, scene.camera_node().unwrap()).unwrap();
-        let camera = Camera { eye: seen.eye, target: seen.target, up: seen.up, fov_y: seen.fov_y, jitter: [0.2, -0.3] };
+        let camera = Camera { jitter: [0.2, -0.3], ..seen };
         // Numbers of files do not matter: the denoiser's begin with 0.
         tracing::render(&mut film, &uploaded, camera, frame - 56).unwrap();
         expected.push(film.numbers(View::Denoised).unwrap());
@@ -175,8 +175,7 @@ fn frames_of_a_still_scene_have_all_the_same_layers() {
     let scene = builtin::scene("pillars", "static").unwrap();
     let uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
     let mut film = Film::new(&gpu, SIZE, Settings::adaptive()).unwrap();
-    let seen = scene.camera_view(&scene.pose(None, 0.0), scene.camera_node().unwrap()).unwrap();
-    let camera = Camera { eye: seen.eye, target: seen.target, up: seen.up, fov_y: seen.fov_y, jitter: [0.0; 2] };
+    let camera = scene.camera_view(&scene.pose(None, 0.0), scene.camera_node().unwrap()).unwrap();
     let (mut expected, mut frames) = (Vec::new(), Export::default());
     for frame in 0..4 {
         tracing::render(&mut film, &uploaded, camera, frame).unwrap();

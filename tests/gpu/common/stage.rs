@@ -64,8 +64,7 @@ impl Stage {
             return camera;
         }
         let node = self.scene.camera_node().expect("a scene with a camera");
-        let view = self.scene.camera_view(pose, node).expect("a camera that sees");
-        Camera { eye: view.eye, target: view.target, up: view.up, fov_y: view.fov_y, jitter: [0.0; 2] }
+        self.scene.camera_view(pose, node).expect("a camera that sees")
     }
 
     /// Records the next frame.

@@ -23,7 +23,7 @@ fn in_the_box_of_cornell() {
     for animation in ["static", "all"] {
         let scene = builtin::scene("cornell", animation).unwrap();
         let view = scene.camera_view(&scene.pose(None, 0.0), scene.camera_node().unwrap()).unwrap();
-        let camera = Camera { eye: view.eye, target: view.target, up: view.up, fov_y: 0.4, jitter: [0.0; 2] };
+        let camera = Camera { fov_y: 0.4, ..view };
         assert_agreement(&scene, camera, 2, animation);
     }
 }

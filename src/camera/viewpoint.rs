@@ -1,0 +1,59 @@
+//! The one way from a host's camera to the shaders'.
+
+use super::placed::PlacedCamera;
+use super::vector::add;
+use super::{Camera, Matrices};
+use crate::Error;
+
+/// Where a frame is seen from. [`Camera`] and [`Matrices`] convert into it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Viewpoint {
+    /// Given by where it is and what it looks at.
+    Camera(Camera),
+    /// Given by its matrices.
+    Matrices(Matrices),
+    /// Given by its matrices in a space that moves along, as renderers of large worlds have it: often the view matrix has no translation
+    /// at all.
+    Relative {
+        /// The camera in that space.
+        matrices: Matrices,
+        /// Where in the world that space has its origin, in this frame.
+        origin: [f64; 3],
+    },
+}
+
+impl From<Camera> for Viewpoint {
+    fn from(camera: Camera) -> Self {
+        Self::Camera(camera)
+    }
+}
+
+impl From<Matrices> for Viewpoint {
+    fn from(matrices: Matrices) -> Self {
+        Self::Matrices(matrices)
+    }
+}
+
+impl Viewpoint {
+    pub(crate) fn placed(&self, size: [u32; 2]) -> Result<PlacedCamera, Error> {
+        match self {
+            Self::Camera(camera) => camera.placed(size),
+            Self::Matrices(matrices) => matrices.placed(size),
+            Self::Relative { origin, .. } if !origin.iter().all(|x| x.is_finite()) => {
+                Err(Error::Camera { element: "origin", reason: "is not finite" })
+            }
+            Self::Relative { matrices, origin } => {
+                let placed = matrices.placed(size)?;
+                Ok(PlacedCamera { eye: add(placed.eye, *origin), ..placed })
+            }
+        }
+    }
+
+    /// Where in the world the host's coordinates count from.
+    pub(crate) fn origin(&self) -> [f64; 3] {
+        match self {
+            Self::Camera(_) | Self::Matrices(_) => [0.0; 3],
+            Self::Relative { origin, .. } => *origin,
+        }
+    }
+}
