@@ -1,7 +1,7 @@
 //! Frames of a path-traced scene.
 
 use crate::Error;
-use crate::camera::Camera;
+use crate::camera::{Camera, Viewpoint};
 use crate::denoiser::{Denoiser, LastFrame, Resources, Source, Specialize};
 use crate::gpu::frame::Moment;
 use crate::passes::Pass;
@@ -68,7 +68,7 @@ impl Denoiser {
             return Err(Error::GradientSource { asked, reason });
         }
         let format = self.check_target(target, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
-        let camera = frame.camera.placed(self.size)?;
+        let camera = Viewpoint::from(frame.camera).placed(self.size)?;
         let traits = self.traits(scene);
         let most = self.adapt(Plan::path_traced(&traits, &self.settings, Changes::ANY, format));
         let now = scene.snapshot();

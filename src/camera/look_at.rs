@@ -29,7 +29,7 @@ impl Default for Camera {
 impl Camera {
     /// The affine map from pixel to ray: direction = corner + x·du + y·dv, with unit component along `forward`. In f64, so
     /// that the f32 results are as good as they can be for very narrow and very wide views.
-    pub(crate) fn placed(&self, size: [u32; 2]) -> Result<PlacedCamera, Error> {
+    pub(super) fn placed(&self, size: [u32; 2]) -> Result<PlacedCamera, Error> {
         let wrong = |element, reason| Err(Error::Camera { element, reason });
         let finite = |v: &[f32]| v.iter().all(|x| x.is_finite());
         // Beyond f32's range it would be infinite in shaders.

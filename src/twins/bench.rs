@@ -5,7 +5,7 @@ use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::kernel::Kernel;
 use crate::plan::{Feature, Grid, Slot, Step};
-use crate::{Camera, Settings};
+use crate::{Camera, Settings, Viewpoint};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -79,7 +79,7 @@ impl Bench {
     }
 
     fn uniform(&self) -> FrameUniform {
-        let camera = |c: &Camera| c.placed(self.size).unwrap_or_else(|e| panic!("{e}"));
+        let camera = |c: &Camera| Viewpoint::from(*c).placed(self.size).unwrap_or_else(|e| panic!("{e}"));
         let moment = Moment {
             camera: camera(&self.camera),
             previous: camera(&self.previous),

@@ -11,9 +11,13 @@ const ALBEDO: f64 = 0.6;
 const INTENSITY: [f32; 3] = [3.0, 2.0, 0.5];
 const PLACE: [f32; 3] = [0.8, 1.7, -0.4];
 
-fn lit_by(kind: LightKind, range: f32) -> Scene {
+fn unlit() -> Scene {
     let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
-    let mut scene = scene(vec![lambert([ALBEDO as f32; 3])], vec![floor]);
+    scene(vec![lambert([ALBEDO as f32; 3])], vec![floor])
+}
+
+fn lit_by(kind: LightKind, range: f32) -> Scene {
+    let mut scene = unlit();
     shine(&mut scene, kind, INTENSITY, range, PLACE);
     scene
 }
@@ -56,6 +60,14 @@ fn a_range_ends_it_smoothly() {
         plain * (1.0 - (distance / 1.9).powi(4)).clamp(0.0, 1.0)
     };
     assert_floor_shows(lit_by(LightKind::Point, 1.9), expected, "range");
+}
+
+#[test]
+fn without_a_range_it_does_not_end() {
+    let mut scene = unlit();
+    // As bright as the directional light below.
+    shine(&mut scene, LightKind::Point, INTENSITY.map(|i| i * 1e20), f32::INFINITY, [0.0, 1e10, 0.0]);
+    assert_floor_shows(scene, |_| ALBEDO / PI, "a light far away");
 }
 
 #[test]

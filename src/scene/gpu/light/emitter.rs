@@ -1,6 +1,7 @@
 //! Triangles that shine, as the Blinn–Phong gradient sees them.
 
 use super::analytic::AnalyticLight;
+use super::punctual::LONGEST_RANGE;
 use super::record::{EMITTER, POINT};
 use crate::scene::description::{Material, Pose};
 use glam::{Mat4, Vec3};
@@ -35,7 +36,7 @@ impl Emitter {
             position: placement.transform_point3(self.centre / self.area).to_array(),
             kind: if flat { EMITTER } else { POINT },
             axis: placement.transform_vector3(self.normal).normalize_or(Vec3::NEG_Y).to_array(),
-            range: 1e9,
+            range: LONGEST_RANGE,
             intensity: [0, 1, 2].map(|c| emissive[c] * factor[c] * scale * shown),
             spot_scale: 0.0,
             spot_offset: 1.0,

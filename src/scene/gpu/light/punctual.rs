@@ -6,6 +6,10 @@ use crate::scene::description::{Light, LightKind};
 use glam::{Mat4, Vec3};
 use std::f64::consts::PI;
 
+/// Longest range in metres, so that its square, which shaders take, stays within f32. A light with this range does not fade at
+/// distances of up to 10¹⁶ m.
+pub(super) const LONGEST_RANGE: f32 = 1e18;
+
 /// A light without area and the node that places it.
 #[derive(Debug)]
 pub(crate) struct Punctual {
@@ -31,8 +35,7 @@ pub(crate) fn placed(light: &Light, placement: Mat4, factor: [f32; 3]) -> GpuLig
         position: placement.w_axis.truncate().to_array(),
         axis: axis.to_array(),
         intensity: [0, 1, 2].map(|c| light.intensity[c] * factor[c]),
-        // Beyond 10¹⁸ its fourth power would overflow; there it never fades.
-        range: light.range.clamp(1e-6, 1e9),
+        range: light.range.clamp(1e-6, LONGEST_RANGE),
         spot_scale: scale,
         spot_offset: offset,
         ..Default::default()
@@ -46,5 +49,34 @@ pub(crate) fn power(light: &Light, radius: f64) -> f64 {
         LightKind::Directional => intensity * PI * radius * radius,
         LightKind::Point => intensity * 4.0 * PI,
         LightKind::Spot { outer, .. } => intensity * 2.0 * PI * (1.0 - f64::from(outer).cos()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn range(given: f32) -> f32 {
+        let light = Light { kind: LightKind::Point, intensity: [1.0; 3], range: given };
+        placed(&light, Mat4::IDENTITY, [1.0; 3]).range
+    }
+
+    #[test]
+    fn a_light_without_a_range_does_not_fade() {
+        let range = range(f32::INFINITY);
+        for distance in [1.0_f32, 1e6, 1e10, 1e15] {
+            // As light.wgsl and blinn_phong.wgsl have it.
+            let paths = distance / range;
+            let gradient = distance * distance / (range * range);
+            assert!((range * range).is_finite());
+            assert_eq!((1.0 - paths * paths * paths * paths, 1.0 - gradient * gradient), (1.0, 1.0), "{distance}");
+        }
+    }
+
+    #[test]
+    fn a_range_of_its_own_is_kept() {
+        for given in [0.5, 3e9, 1e15] {
+            assert_eq!(range(given), given);
+        }
     }
 }
