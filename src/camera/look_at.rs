@@ -1,22 +1,22 @@
-//! A camera given by its place and what it looks at.
+//! A camera given by its place and target.
 
 use super::placed::{CameraUniform, PlacedCamera};
 use super::vector::{cross, normalize, scale, subtract};
 use crate::Error;
 
-/// A perspective camera in a right-handed world. Depth is linear, along `forward`; pixels count from the upper left corner,
-/// x right, y down.
+/// A perspective camera in a right-handed world. Depth is linear, along the view. Pixels count from the upper left corner, x right,
+/// y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where it is. In double precision, so that it moves smoothly however far it is from the origin.
+    /// Position, in double precision so that the camera moves smoothly however far it is from the origin.
     pub eye: [f64; 3],
-    /// A point that it looks at, not `eye` itself.
+    /// A point that the camera looks at, other than `eye`.
     pub target: [f64; 3],
-    /// A direction that shall point up in the image, not along the view.
+    /// The direction that points up in the image, not along the view.
     pub up: [f32; 3],
     /// Vertical field of view in radians, 0 < fov < π.
     pub fov_y: f32,
-    /// Where the ray of a pixel goes through it, from its centre, in pixels: −½…½. The same for all pixels of a frame.
+    /// Offset of each pixel's ray from the pixel's centre, in pixels, −½…½, x right, y down. All pixels of a frame share it.
     pub jitter: [f32; 2],
 }
 
@@ -27,12 +27,12 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// The affine map from pixel to ray: direction = corner + x·du + y·dv, with unit component along `forward`. In f64, so
+    /// The affine map from pixel to ray: direction = corner + x·du + y·dv, with unit component along `forward`. It is computed in f64, so
     /// that the f32 results are as good as they can be for very narrow and very wide views.
     pub(super) fn placed(&self, size: [u32; 2]) -> Result<PlacedCamera, Error> {
         let wrong = |element, reason| Err(Error::Camera { element, reason });
         let finite = |v: &[f32]| v.iter().all(|x| x.is_finite());
-        // Beyond f32's range it would be infinite in shaders.
+        // Beyond the range of f32, a number is infinite in shaders.
         let in_range = |v: [f64; 3]| v.iter().all(|x| x.abs() <= f64::from(f32::MAX));
         if !in_range(self.eye) {
             return wrong("eye", "is not finite");

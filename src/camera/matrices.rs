@@ -4,26 +4,28 @@ use super::placed::{CameraUniform, PlacedCamera};
 use super::vector::{dot, scale, subtract};
 use crate::Error;
 
-/// A perspective or orthographic camera as renderers have it. Matrices are arrays of columns: `m[column][row]`, as glam's `to_cols_array_2d` gives
-/// them.
+/// A perspective or orthographic camera as renderers have it. A matrix is an array of columns, `m[column][row]`, as glam's
+/// `to_cols_array_2d` returns it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Matrices {
     /// World space to view space: a rotation and a translation, without scale. Right- or left-handed.
     pub view: [[f32; 4]; 4],
-    /// View space to clip space, x right and y up, **without** the jitter. Any depth range: reversed and infinite ones too, because
-    /// depth is not read from it. It may be off-centre (shifted lenses, crops). An orthographic one looks to where its depth grows; it counts as
-    /// reversed if the eye itself has a depth above ½. Surfaces must lie in front of the eye, at depths above 0.
+    /// View space to clip space, x right and y up, **without** the jitter. Any depth range will do, reversed and infinite ones too,
+    /// because depth is not read from it. It may be off-centre (shifted lenses, crops). An orthographic projection looks in the
+    /// direction in which its depth grows; it counts as reversed if the eye itself has a depth above ½. Surfaces must lie in front of
+    /// the eye, at depths above 0.
     pub projection: [[f32; 4]; 4],
-    /// Where the ray of a pixel goes through it, from its centre, in pixels, x right, y **down**: −½…½. The same for all pixels of a
-    /// frame.
+    /// Offset of each pixel's ray from the pixel's centre, in pixels, −½…½, x right, y **down**. All pixels of a frame share it.
     pub jitter: [f32; 2],
 }
 
 impl Matrices {
-    /// As [`Camera::placed`]. A point v of view space has the linear depth z = s·v_z, s = ±1 by handedness, and the image point
-    /// ndc = A·(v_xy/z) + s·(P₂₀, P₂₁) with A the upper left 2×2 of the projection, divided by |P₂₃|. Solved for v_xy/z, and turned
-    /// into world space, that is the ray of an image point, affine in it. In an orthographic view, divided by P₃₃,
-    /// ndc = A·v_xy + (P₃₀, P₃₁), and what is affine is the place of the ray instead of its direction.
+    /// The affine map from pixel to ray, as `Camera::placed` has it.
+    ///
+    /// A point v of view space has the linear depth z = s·v_z, with s = ±1 by handedness, and the image point
+    /// ndc = A·(v_xy/z) + s·(P₂₀, P₂₁). Here A is the upper left 2×2 of the projection P, divided by |P₂₃|. Solved for v_xy/z and turned
+    /// into world space, this gives the ray of an image point, affine in the point. In an orthographic view, divided by P₃₃,
+    /// ndc = A·v_xy + (P₃₀, P₃₁): there the origin of the ray is affine in the image point, instead of its direction.
     pub(super) fn placed(&self, size: [u32; 2]) -> Result<PlacedCamera, Error> {
         let wrong = |element, reason| Err(Error::Camera { element, reason });
         let finite = |m: &[[f32; 4]; 4]| m.iter().flatten().all(|x| x.is_finite());
@@ -63,7 +65,7 @@ impl Matrices {
         } else {
             p[2][3].signum()
         };
-        // Where the middle of the view lands in the image.
+        // The image point of the middle of the view.
         let middle = if orthographic { [p[3][0], p[3][1]] } else { [side * p[2][0], side * p[2][1]] };
         let determinant = p[0][0] * p[1][1] - p[1][0] * p[0][1];
         let other = if orthographic { [p[2][0], p[2][1]] } else { [p[3][0], p[3][1]] };

@@ -1,5 +1,5 @@
-//! Cameras, and how they reach the shaders: a host's [`Camera`] or [`Matrices`] is a [`Viewpoint`], which gives one
-//! [`PlacedCamera`], which gives the uniform.
+//! Cameras, and their way to the shaders: a host's [`Camera`] or [`Matrices`] becomes a [`Viewpoint`], for an image's size that
+//! becomes a [`PlacedCamera`], and in a frame that becomes the [`CameraUniform`].
 
 mod look_at;
 mod matrices;

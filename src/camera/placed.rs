@@ -3,18 +3,18 @@
 use super::vector::{dot, narrow, subtract};
 use bytemuck::{Pod, Zeroable};
 
-/// A camera for an image's size.
+/// A camera for an image of one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlacedCamera {
     pub(super) eye: [f64; 3],
-    /// The rest, its eye at 0.
+    /// All the rest, with the eye at 0.
     pub(super) rays: CameraUniform,
 }
 
 impl PlacedCamera {
-    /// The camera in coordinates that count from `origin`, in a frame that is seen by `now`.
+    /// The uniform in coordinates relative to `origin`, for a frame whose own camera is `now`.
     pub fn uniform(&self, origin: [f64; 3], now: &Self) -> CameraUniform {
-        // f32 has steps of 3 cm at 500 km: differences have to be taken before rounding.
+        // f32 has steps of 3 cm at 500 km, so differences are taken before rounding.
         CameraUniform {
             eye: narrow(subtract(self.eye, origin)),
             offset: narrow(subtract(self.eye, now.eye)),
@@ -32,20 +32,20 @@ pub(crate) struct CameraUniform {
     pub(super) forward: [f32; 3],
     pub(super) jitter_y: f32,
     pub(super) corner: [f32; 3],
-    /// 1 for an orthographic view: then the ray's spread does not grow with depth.
+    /// 1 for an orthographic view, in which the spread of a ray does not grow with depth.
     pub(super) orthographic: f32,
     pub(super) du: [f32; 3],
     pub(super) inverse_du: f32,
     pub(super) dv: [f32; 3],
     pub(super) inverse_dv: f32,
-    /// The eye less that of this frame's camera.
+    /// This eye minus the eye of the frame's own camera.
     pub(super) offset: [f32; 3],
-    // WGSL rounds a struct's size up to that of a vector.
+    // WGSL rounds the size of a struct up to that of a vector.
     padding: f32,
 }
 
 impl CameraUniform {
-    /// Which way, and the affine map from pixel to ray: corner, du, dv.
+    /// The rays from a direction of view and the affine map from pixel to ray: corner, du, dv.
     pub(super) fn new(forward: [f64; 3], [corner, du, dv]: [[f64; 3]; 3], jitter: [f32; 2]) -> Self {
         Self {
             eye: [0.0; 3],

@@ -121,7 +121,7 @@ fn matrices_of_every_convention_give_the_same_camera() {
     }
 }
 
-/// Where matrices put points, against the ray of that place: for frusta and worlds that no [`Camera`] describes.
+/// The image points of matrices against the rays there, for frusta and worlds that no [`Camera`] describes.
 #[test]
 #[cfg(feature = "path-tracer")]
 fn points_are_seen_where_matrices_put_them() {
@@ -136,7 +136,7 @@ fn points_are_seen_where_matrices_put_them() {
         Vec4::new((r + l) / (r - l), (t + b) / (t - b), -1.0, -1.0),
         Vec4::new(0.0, 0.0, -n, 0.0),
     );
-    // And a world that is left-handed itself.
+    // The world is left-handed itself.
     let left = lh::view::look_at_mat4(narrow(c.eye).into(), narrow(c.target).into(), c.up.into());
     let views = [(view_rh(&c), off_centre), (left, lh::proj::directx::perspective(0.9, 0.7, 0.1, 50.0))];
     let points = [Vec3::new(-0.4, 0.3, -1.5), Vec3::new(0.2, -0.1, 0.3), Vec3::new(-1.5, 1.0, -4.0)];
@@ -155,7 +155,7 @@ fn points_are_seen_where_matrices_put_them() {
     }
 }
 
-/// Parallel views of every convention, off-centre too, against where glam puts points.
+/// Parallel views of every convention, off-centre too, against the image points of glam.
 #[test]
 #[cfg(feature = "path-tracer")]
 fn points_are_seen_where_orthographic_matrices_put_them() {

@@ -1,23 +1,23 @@
-//! The one way from a host's camera to the shaders'.
+//! The one way from a host's camera to the uniform.
 
 use super::placed::PlacedCamera;
 use super::vector::add;
 use super::{Camera, Matrices};
 use crate::Error;
 
-/// Where a frame is seen from. [`Camera`] and [`Matrices`] convert into it.
+/// The camera of a frame. [`Camera`] and [`Matrices`] convert into it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {
-    /// Given by where it is and what it looks at.
+    /// A camera given by its place and target.
     Camera(Camera),
-    /// Given by its matrices.
+    /// A camera given by its matrices.
     Matrices(Matrices),
-    /// Given by its matrices in a space that moves along, as renderers of large worlds have it: often the view matrix has no translation
-    /// at all.
+    /// A camera given by its matrices in a space that moves along with it, as renderers of large worlds have it. The view matrix then
+    /// often has no translation at all.
     Relative {
         /// The camera in that space.
         matrices: Matrices,
-        /// Where in the world that space has its origin, in this frame.
+        /// Origin of that space in the world, in this frame.
         origin: [f64; 3],
     },
 }
@@ -49,7 +49,7 @@ impl Viewpoint {
         }
     }
 
-    /// Where in the world the host's coordinates count from.
+    /// Origin of the host's coordinates in the world.
     pub(crate) fn origin(&self) -> [f64; 3] {
         match self {
             Self::Camera(_) | Self::Matrices(_) => [0.0; 3],

@@ -1,6 +1,7 @@
-//! What the path tracer draws: a plain description, importers, built-in scenes, and its upload to the GPU.
+//! Scenes for the path tracer: a plain description, importers, built-in scenes, and the upload to the GPU.
 //!
-//! Data go one way: [`load`](mod@load) and [`builtin`] fill in a [`description`], [`gpu`] uploads it.
+//! Data flow one way: the importers in `load/` and [`builtin`] fill in a description (`description/`), and `gpu/` lays it out and
+//! uploads it.
 
 mod description;
 mod gpu;

@@ -14,9 +14,9 @@ pub struct Animation {
 /// One animated property.
 #[derive(Clone, Debug)]
 pub struct Channel {
-    /// What is animated.
+    /// The property.
     pub target: Target,
-    /// How to go from key to key.
+    /// The curve between keys.
     pub interpolation: Interpolation,
     /// Key times in seconds, increasing, at least one.
     pub times: Vec<f32>,
@@ -25,7 +25,7 @@ pub struct Channel {
     pub values: Vec<[f32; 4]>,
 }
 
-/// What a [`Channel`] drives.
+/// The property that a [`Channel`] animates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Target {
     /// Translation of a node.
@@ -40,10 +40,10 @@ pub enum Target {
     Intensity(usize),
 }
 
-/// How a [`Channel`] goes from key to key.
+/// The curve of a [`Channel`] between its keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
-    /// The last key's value.
+    /// The value of the key before.
     Step,
     /// Linear; spherical for rotations.
     #[default]
@@ -84,7 +84,7 @@ impl Channel {
             Interpolation::Linear => {
                 let (a, b) = (self.value(before)?, self.value(after)?);
                 Some(match self.target {
-                    // glam's slerp takes the short way round, as glTF asks for.
+                    // glam's slerp takes the short way round, as glTF requires.
                     Target::Rotation(_) => DVec4::from(unit(a).slerp(unit(b), t)),
                     _ => a.lerp(b, t),
                 })
@@ -116,7 +116,7 @@ impl Channel {
     }
 }
 
-/// The rotation nearest to a quaternion of any length; none at all for length zero.
+/// The rotation nearest to a quaternion of any length: the identity for length zero.
 pub(super) fn unit(quaternion: DVec4) -> DQuat {
     DQuat::from_vec4(quaternion.try_normalize().unwrap_or(DVec4::W))
 }

@@ -1,6 +1,6 @@
-//! Scenes made in code, so that nothing need be downloaded.
+//! Scenes made in code, which need no download.
 //!
-//! Each comes with one of the animations of [`ANIMATIONS`]. What its animation does not move is static geometry.
+//! Each plays one of [`ANIMATIONS`]. Objects that this animation does not move are static geometry.
 
 use super::{
     Animation, Channel, Environment, Interpolation, Material, Mesh, Node, Perspective, Scene, Target, Transform,
@@ -9,13 +9,13 @@ use super::{
 /// Names of the built-in scenes.
 pub const NAMES: [&str; 2] = ["cornell", "pillars"];
 
-/// Names of the animations of each.
+/// Names of the animations that each scene has.
 pub const ANIMATIONS: [&str; 6] = ["static", "blink", "move-light", "move-object", "move-camera", "all"];
 
 /// Seconds in which every animation repeats.
 pub const PERIOD: f32 = 4.0;
 
-/// A built-in scene by name with one of its animations, or `None` where there is no such name.
+/// A built-in scene by name with one of its animations, or `None` if there is no such name.
 pub fn scene(name: &str, animation: &str) -> Option<Scene> {
     if !ANIMATIONS.contains(&animation) {
         return None;
@@ -58,7 +58,7 @@ fn cornell(animation: &str) -> Scene {
     b.scene
 }
 
-/// Many thin pillars before a large floor and one area light: where the light moves, many narrow shadows sweep.
+/// Many thin pillars on a large floor under one area light. When the light moves, many narrow shadows sweep.
 fn pillars(animation: &str) -> Scene {
     let mut b = Builder::default();
     let floor = b.diffuse("floor", [0.7, 0.68, 0.64]);
@@ -98,7 +98,7 @@ enum Moved {
     Camera,
 }
 
-/// On and off, a quarter of the period each.
+/// Switches on and off, for a quarter of the period each.
 fn blink(material: usize) -> Channel {
     let quarter = PERIOD / 4.0;
     Channel {
@@ -109,7 +109,7 @@ fn blink(material: usize) -> Channel {
     }
 }
 
-/// From one place to another and back, starting half way, at constant speed.
+/// Moves from one place to another and back at constant speed, starting half way.
 fn sway(node: usize, [a, b]: [[f32; 3]; 2]) -> Channel {
     let middle = [0, 1, 2].map(|i| 0.5 * (a[i] + b[i]));
     let quarter = PERIOD / 4.0;

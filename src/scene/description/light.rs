@@ -1,13 +1,14 @@
-//! Lights that are no triangles.
+//! Lights that have no triangles.
 
-/// A light without area (KHR_lights_punctual). Direction is −Z of its node.
+/// A light without area (KHR_lights_punctual). It shines along −Z of its node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// Shape of the emission.
     pub kind: LightKind,
-    /// Linear colour times intensity: W/(m²) for a directional light (radiometric lux), W/sr for the others.
+    /// Linear colour times intensity: W/m² for a directional light (radiometric lux), W/sr for the others.
     pub intensity: [f32; 3],
-    /// Distance at which the light has faded to nothing, or infinity. Fades as in KHR_lights_punctual.
+    /// Distance in metres at which the light has faded to nothing (as KHR_lights_punctual defines), or infinity for one that does not
+    /// fade.
     pub range: f32,
 }
 
@@ -16,7 +17,7 @@ pub struct Light {
 pub enum LightKind {
     /// Parallel light from infinitely far away.
     Directional,
-    /// All directions alike.
+    /// Light of the same intensity in all directions.
     Point,
     /// A cone: full intensity inside `inner`, none outside `outer` (half angles, radians).
     Spot {
@@ -27,8 +28,8 @@ pub enum LightKind {
     },
 }
 
-/// Light from infinitely far away as an equirectangular image: u grows with the azimuth from −X over +Z, +X and −Z…
-/// exactly: direction (x, y, z) is at u = ½ + atan2(z, x)/2π, v = acos(y)/π. The first row is +Y.
+/// Light from infinitely far away as an equirectangular image. Direction (x, y, z) is at u = ½ + atan2(z, x)/2π, v = acos(y)/π. The
+/// first row is +Y; u grows from −X over −Z, +X and +Z.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Environment {
     /// Texels per row, ≥ 1.

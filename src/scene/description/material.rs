@@ -17,15 +17,15 @@ pub struct Material {
     pub roughness: f32,
     /// Green = roughness, blue = metallic (linear).
     pub metallic_roughness_texture: Option<Texture>,
-    /// Radiance that the front face emits (every face, where `double_sided`), ≥ 0; multiplies the texture.
+    /// Radiance that the front face emits (both faces if `double_sided`), ≥ 0; multiplies the texture.
     pub emissive: [f32; 3],
     /// Emitted colour (sRGB).
     pub emissive_texture: Option<Texture>,
-    /// How opacity is used.
+    /// The use of opacity.
     pub alpha: Alpha,
-    /// Whether the back face emits too. Reflection is always two-sided.
+    /// True if the back face emits too. Reflection is always two-sided.
     pub double_sided: bool,
-    /// The base colour is shown as it is, without any light (KHR_materials_unlit); it lights nothing.
+    /// True if the base colour is shown as it is, without any light (KHR_materials_unlit). Such a surface lights nothing.
     pub unlit: bool,
     /// Normal-incidence reflectance (F₀) of the dielectric part, each 0…1: 0.04 for an index of refraction of 1.5, 0 for a
     /// purely Lambertian surface.
@@ -36,7 +36,8 @@ pub struct Material {
     pub specular_texture: Option<Texture>,
     /// Colour (sRGB) multiplies `specular` (KHR_materials_specular).
     pub specular_color_texture: Option<Texture>,
-    /// Back faces do not exist, neither for the camera nor for light, as rasterizers draw them: for outlines made of hulls.
+    /// True if back faces are invisible to the camera and to light, as in a rasterizer that culls them. Outlines made of hulls need
+    /// this.
     pub culled: bool,
 }
 
@@ -70,7 +71,7 @@ impl Material {
         !self.unlit && self.emissive.iter().any(|&e| e > 0.0)
     }
 
-    /// All textures that there are, each with the name of its field.
+    /// All textures in use, each with the name of its field.
     pub(crate) fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
         [
             ("base_color_texture", self.base_color_texture),
@@ -84,16 +85,16 @@ impl Material {
     }
 }
 
-/// How a material's opacity is used.
+/// The use of a material's opacity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Alpha {
     /// Opacity is ignored.
     #[default]
     Opaque,
-    /// Points whose opacity is below the cutoff do not exist.
+    /// Points with an opacity below the cutoff are cut out.
     Mask(f32),
-    /// The surface covers as much of what lies behind as its opacity: a ray meets it with that probability. Noise is higher
-    /// there, because a path begins on one of the surfaces that a pixel sees. The denoiser keeps the depth, normal and motion
-    /// of the nearest one with an opacity of at least ½, and the albedo of all.
+    /// A ray meets the surface with a probability equal to its opacity. Such pixels have more noise, because each path begins on
+    /// one of the surfaces that the pixel sees. The denoiser keeps the depth, normal and motion of the nearest surface with an
+    /// opacity of at least ½, and the albedo of all of them.
     Blend,
 }

@@ -5,7 +5,7 @@ use glam::{DMat4, DVec3};
 use crate::scene::description::{Mesh, Pose, Scene};
 
 impl Scene {
-    /// Triangles that are drawn: a mesh counts once for each node that places it.
+    /// Number of triangles that are drawn. A mesh counts once for each node that places it.
     pub fn triangle_count(&self) -> usize {
         self.nodes
             .iter()
@@ -22,7 +22,7 @@ impl Scene {
         0.5 * twice
     }
 
-    /// Smallest and largest corner of the box around all placed triangles; `None` where there is no triangle.
+    /// Smallest and largest corner of the box around all placed triangles; `None` without triangles.
     pub fn bounds(&self, pose: &Pose) -> Option<[[f64; 3]; 2]> {
         let mut bounds: Option<[DVec3; 2]> = None;
         self.for_each_triangle(pose, |corners| {
@@ -32,10 +32,10 @@ impl Scene {
         bounds.map(|corners| corners.map(|corner| corner.to_array()))
     }
 
-    /// Calls `visit` with the world-space corners of every placed triangle. Indices that lead nowhere are passed over.
+    /// Calls `visit` with the world-space corners of every placed triangle. Indices out of range are skipped.
     fn for_each_triangle(&self, pose: &Pose, mut visit: impl FnMut([DVec3; 3])) {
         for (node, world) in self.nodes.iter().zip(&pose.world) {
-            // Double precision: the sum of many small areas, and products of large coordinates.
+            // Sums of many small areas and products of large coordinates need double precision.
             let world = DMat4::from_cols_array_2d(world);
             for mesh in node.meshes.iter().filter_map(|&mesh| self.meshes.get(mesh)) {
                 let corner = |index: u32| Some(world.transform_point3(position(mesh, index)?));

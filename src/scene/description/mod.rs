@@ -1,7 +1,7 @@
-//! The scene as plain data: what an importer produces, what a host may fill in by hand, and what
-//! [`GpuScene`](crate::scene::GpuScene) uploads.
+//! The scene as plain data. An importer produces it, a host may fill it in by hand, and
+//! [`GpuScene`](crate::scene::GpuScene) uploads it.
 //!
-//! Conventions are those of glTF 2.0: right-handed, +Y up, metres, counter-clockwise front faces, matrices as four
+//! The conventions are those of glTF 2.0: right-handed, +Y up, metres, counter-clockwise front faces, matrices as four
 //! columns, quaternions as `[x, y, z, w]`, linear Rec. 709 colour unless a field says otherwise.
 
 mod animation;

@@ -3,13 +3,13 @@
 /// A column-major 4×4 matrix: `m[column][row]`, multiplying column vectors from the left.
 pub type Matrix = [[f32; 4]; 4];
 
-/// The same in double precision. Thousands of kilometres from the origin it still places to a micrometre.
+/// A [`Matrix`] in double precision. It places to a micrometre even thousands of kilometres from the origin.
 pub type WorldMatrix = [[f64; 4]; 4];
 
 /// The identity [`Matrix`].
 pub const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
-/// One element of the hierarchy.
+/// An element of the hierarchy.
 #[derive(Clone, Debug, Default)]
 pub struct Node {
     /// Name for messages and debugging; may be empty.
@@ -18,13 +18,13 @@ pub struct Node {
     pub parent: Option<usize>,
     /// Placement relative to the parent.
     pub transform: Transform,
-    /// Meshes placed here (indices into [`Scene::meshes`]).
+    /// Meshes placed here (indices into [`Scene::meshes`](super::Scene::meshes)).
     pub meshes: Vec<usize>,
-    /// Light placed here, shining along −Z (index into [`Scene::lights`]).
+    /// Light placed here, shining along −Z (index into [`Scene::lights`](super::Scene::lights)).
     pub light: Option<usize>,
-    /// Camera placed here, looking along −Z with +Y up (index into [`Scene::cameras`]).
+    /// Camera placed here, looking along −Z with +Y up (index into [`Scene::cameras`](super::Scene::cameras)).
     pub camera: Option<usize>,
-    /// The host will move this node although no animation does: keep it out of the static geometry.
+    /// True if the host moves this node although no animation does. Such a node is kept out of the static geometry.
     pub movable: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Where everything is at one moment.
+//! The hierarchy at one moment.
 
 use glam::{DMat4, DQuat, DVec3, Mat4};
 
@@ -8,19 +8,19 @@ use super::{Matrix, Scene, Target, Transform, WorldMatrix};
 /// The moving parts of a [`Scene`] at one moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// World matrix of each node. In double precision: products of large and small offsets keep the small ones.
+    /// World matrix of each node, in double precision so that a small offset survives beside a large one.
     pub world: Vec<WorldMatrix>,
     /// Factor on the emission of each material, per colour channel.
     pub emission: Vec<[f32; 3]>,
-    /// Factor on the intensity of each light, likewise.
+    /// Factor on the intensity of each light, per colour channel.
     pub intensity: Vec<[f32; 3]>,
 }
 
 impl Scene {
-    /// Evaluates the hierarchy at `time` seconds of an animation, which repeats for ever: the time is taken modulo
-    /// [`Scene::duration`]. Before its first key a curve holds the first value, after its last key the last one.
+    /// Evaluates the hierarchy at `time` seconds of an animation. The animation repeats for ever: `time` is taken modulo
+    /// [`Scene::duration`]. A curve holds its first value before its first key and its last value after its last key.
     ///
-    /// `None`, an index that does not exist, or a time that is not finite gives the rest pose (factors of 1).
+    /// `None`, an index out of range, or a time that is not finite gives the rest pose (factors of 1).
     pub fn pose(&self, animation: Option<usize>, time: f32) -> Pose {
         let mut locals: Vec<Local> = self.nodes.iter().map(|node| Local::new(node.transform)).collect();
         let mut emission = vec![[1.0; 3]; self.materials.len()];
@@ -44,18 +44,18 @@ impl Scene {
             }
         }
 
-        // In f32, a child of a parent at 500 km would move in steps of 3 cm.
+        // In f32, the child of a parent at 500 km would move in steps of 3 cm.
         let mut world: Vec<DMat4> = Vec::with_capacity(self.nodes.len());
         for (node, local) in self.nodes.iter().zip(&locals) {
-            // Parents come first, so that one pass suffices.
+            // One pass suffices, because parents come first.
             let parent = node.parent.and_then(|parent| world.get(parent)).copied().unwrap_or(DMat4::IDENTITY);
             world.push(parent * local.matrix());
         }
         Pose { world: world.iter().map(DMat4::to_cols_array_2d).collect(), emission, intensity }
     }
 
-    /// Last key time of an animation in seconds: the time after which [`Scene::pose`] repeats. 0 for `None`, for an
-    /// index that does not exist and for an animation that is one key at time 0: then nothing moves.
+    /// Time of the last key of an animation in seconds, after which [`Scene::pose`] repeats. 0 if nothing moves: for `None`, for an
+    /// index out of range, and for an animation that is one key at time 0.
     pub fn duration(&self, animation: Option<usize>) -> f32 {
         animation.and_then(|index| self.animations.get(index)).map_or(0.0, Animation::duration)
     }
@@ -65,8 +65,8 @@ impl Scene {
         self.animations.iter().position(|animation| animation.name == name)
     }
 
-    /// For each node, whether it may ever move: it is [`movable`](crate::scene::Node::movable), a channel of any
-    /// animation moves it, or its parent may move.
+    /// True for each node that may ever move: a [`movable`](crate::scene::Node::movable) one, one that a channel of any animation
+    /// moves, and one whose parent may move.
     pub fn animated_nodes(&self) -> Vec<bool> {
         let mut moves: Vec<bool> = self.nodes.iter().map(|node| node.movable).collect();
         for channel in self.animations.iter().flat_map(|animation| &animation.channels) {
@@ -88,7 +88,7 @@ struct Local {
     translation: DVec3,
     rotation: DQuat,
     scale: DVec3,
-    /// Stands for the three above, in a node that cannot be animated.
+    /// Replaces the three above in a node that cannot be animated.
     fixed: Option<Matrix>,
 }
 
@@ -115,12 +115,12 @@ impl Local {
     }
 }
 
-/// `time` within 0…`duration`, or 0 where nothing repeats.
+/// `time` within 0…`duration`, or 0 if nothing repeats.
 fn looped(time: f32, duration: f32) -> f32 {
     if duration > 0.0 { time.rem_euclid(duration) } else { 0.0 }
 }
 
-/// Changes one element, if there is such an element.
+/// Changes one element, if the index is in range.
 fn set<T>(items: &mut [T], index: usize, change: impl FnOnce(&mut T)) {
     if let Some(item) = items.get_mut(index) {
         change(item);

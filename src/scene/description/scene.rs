@@ -17,15 +17,15 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Perspective cameras.
     pub cameras: Vec<Perspective>,
-    /// Light from infinitely far away; also what a primary ray sees that hits nothing. `None` is black.
+    /// Light from infinitely far away, which primary rays that hit nothing see too. `None` is black.
     pub environment: Option<Environment>,
-    /// Motions, one of which may be played with [`Scene::pose`].
+    /// Motions. [`Scene::pose`] plays one of them.
     pub animations: Vec<Animation>,
 }
 
 impl Scene {
-    /// Takes the back faces of all materials that are not [`double_sided`](Material::double_sided) away, as rasterizers do: for
-    /// models whose outlines are hulls turned inside out, and for rooms that are looked into from outside.
+    /// Removes the back faces of all materials that are not [`double_sided`](Material::double_sided), as rasterizers do. Models whose
+    /// outlines are hulls turned inside out need this, and rooms that are seen from outside.
     pub fn cull_back_faces(&mut self) {
         self.materials.iter_mut().for_each(|material| material.culled = !material.double_sided);
     }

@@ -3,20 +3,20 @@
 /// A use of an [`Image`] by a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texture {
-    /// Index into [`Scene::images`].
+    /// Index into [`Scene::images`](super::Scene::images).
     pub image: usize,
-    /// Which of [`Mesh::uvs`]: 0 or 1.
+    /// Index into [`Mesh::uvs`](super::Mesh::uvs): 0 or 1.
     pub uv_set: usize,
-    /// What lies outside 0…1 in u and in v.
+    /// Continuation outside 0…1, in u and in v.
     pub wrap: [Wrap; 2],
-    /// Nearest texel instead of bilinear interpolation.
+    /// True for the nearest texel, false for bilinear interpolation.
     pub nearest: bool,
     /// Affine map of (u, v, 1), as two rows (KHR_texture_transform).
     pub transform: [[f32; 3]; 2],
 }
 
 impl Texture {
-    /// The image as it is: set 0, repeated, bilinear, not transformed.
+    /// The plain image: set 0, repeated, bilinear, not transformed.
     pub fn new(image: usize) -> Self {
         Self {
             image,
@@ -28,15 +28,15 @@ impl Texture {
     }
 }
 
-/// What a texture shows outside 0…1.
+/// The continuation of a texture outside 0…1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrap {
-    /// The image again.
+    /// The image repeats.
     #[default]
     Repeat,
-    /// The image mirrored, again and again.
+    /// The image repeats, mirrored every other time.
     Mirror,
-    /// The texels of the border.
+    /// The texels of the border continue.
     Clamp,
 }
 

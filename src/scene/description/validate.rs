@@ -1,4 +1,4 @@
-//! The rules that a [`Scene`] must keep before it can be drawn.
+//! The rules that a [`Scene`] must keep to be drawn.
 
 use std::collections::HashSet;
 use std::f32::consts::{FRAC_PI_2, PI};
@@ -12,12 +12,12 @@ use crate::scene::description::{
 type Broken = (String, String);
 
 impl Scene {
-    /// Checks that every index is in range, that arrays that belong together have the same length, that parents come
-    /// before their children, that all numbers are finite and within the ranges of their documentation.
+    /// Checks the whole scene: indices are in range, arrays that belong together have the same length, parents come before their
+    /// children, and numbers are finite and within their documented ranges.
     ///
     /// # Errors
     ///
-    /// The first rule that is broken: the element (`meshes[2].triangles[7]`) and why, with `scene` as the file.
+    /// Names the element that breaks the first rule (`meshes[2].triangles[7]`) and the reason, with `scene` as the file.
     pub fn validate(&self) -> Result<(), SceneError> {
         self.check().map_err(|(element, reason)| SceneError { file: "scene".into(), element, reason })
     }

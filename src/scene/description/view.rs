@@ -1,4 +1,4 @@
-//! Where the cameras of a scene look.
+//! The cameras of a scene, placed.
 
 use glam::DMat4;
 
@@ -11,8 +11,8 @@ impl Scene {
         self.nodes.iter().position(|node| node.camera.is_some())
     }
 
-    /// What the camera of a node sees in a pose. `None` where the node has no camera or its matrix leaves no view
-    /// direction (a scale of zero).
+    /// The camera of a node in a pose, without jitter. Its target is one metre ahead of the eye, and its `up` is a unit vector
+    /// perpendicular to the view. `None` if the node has no camera or its matrix leaves no view direction (a scale of zero).
     pub fn camera_view(&self, pose: &Pose, node: usize) -> Option<Camera> {
         let camera = self.cameras.get(self.nodes.get(node)?.camera?)?;
         let world = DMat4::from_cols_array_2d(pose.world.get(node)?);

@@ -12,29 +12,29 @@ use super::visible::Visible;
 use crate::scene::description::{Material, Pose, SceneError};
 use glam::DVec3;
 
-/// What moves or dims, and the data that it has in any pose.
+/// Everything that moves or dims, and the data that any pose needs.
 #[derive(Debug)]
 pub(crate) struct Arrangement {
-    /// Where in the world coordinates on the GPU count from. It stays, as the last frame's coordinates count from it too.
+    /// Origin of the coordinates on the GPU, in the world. It never changes, because the last frame's coordinates share it.
     pub centre: DVec3,
-    /// There are two levels of trees.
+    /// True if there are two levels of trees.
     pub instanced: bool,
-    /// All but the grid, which [`Arrangement::top_level`] adds.
+    /// The constants without the grid, which [`Arrangement::top_level`] adds.
     pub header: Header,
     pub instances: Vec<Instance>,
     pub lights: Lights,
     pub materials: Vec<Material>,
     pub images: Vec<Place>,
-    /// Corners of each row, where the scene has so few triangles that each is tested.
+    /// Corners of each row, if the scene has so few triangles that each is tested.
     pub few: Option<Vec<[[f32; 3]; 3]>>,
-    /// Entries of each list of a pose.
+    /// Lengths of the lists of a pose.
     pub lengths: [usize; 3],
 }
 
 /// The top level of the trees and the instances' records in a pose.
 pub(crate) struct TopLevel {
     pub header: Header,
-    /// Empty where there is one level.
+    /// Empty if there is only one level.
     pub texels: Vec<Texel>,
     pub depth: u32,
 }
@@ -46,20 +46,20 @@ pub(crate) struct Facets {
     pub owners: Vec<[u32; 4]>,
 }
 
-/// Entries of each list of a pose.
+/// Lengths of the lists of a pose.
 pub(crate) fn lengths(pose: &Pose) -> [usize; 3] {
     [pose.world.len(), pose.emission.len(), pose.intensity.len()]
 }
 
 impl Arrangement {
-    /// Checks that a pose is of this scene and finite.
+    /// Checks that a pose belongs to this scene and is finite.
     pub fn check(&self, pose: &Pose) -> Result<(), SceneError> {
         let wrong =
             |element: String, reason: &str| Err(SceneError { file: "pose".into(), element, reason: reason.into() });
         if lengths(pose) != self.lengths {
             return wrong("lengths".into(), "differ from the scene's: make it with `Scene::pose` of the same scene");
         }
-        // What f32 cannot hold is infinite in shaders.
+        // Beyond the range of f32, a number is infinite in shaders.
         let finite = |x: &f64| x.abs() <= f64::from(f32::MAX);
         if let Some(i) = pose.world.iter().position(|m| !m.iter().flatten().all(finite)) {
             return wrong(format!("world[{i}]"), "is not finite");
@@ -70,7 +70,7 @@ impl Arrangement {
         Ok(())
     }
 
-    /// The part of a pose that paths see: the nodes where there is something.
+    /// The part of a pose that paths see: nodes with triangles or lights.
     pub fn visible(&self, pose: &Pose) -> Visible {
         Visible::new(pose, self.instances.iter().filter_map(|i| i.node).chain(self.lights.nodes()))
     }
@@ -93,19 +93,19 @@ impl Arrangement {
         materials(&self.materials, &pose.emission, &self.images)
     }
 
-    /// Puts the lights where they are in a pose. Returns those of the Blinn–Phong gradient.
+    /// Places the lights in a pose. Returns those that the Blinn–Phong gradient evaluates.
     pub fn place_lights(&mut self, pose: &Pose) -> Vec<AnalyticLight> {
         let placement = |instance: usize| self.instances[instance].placement(pose, self.centre);
         self.lights.place(&self.materials, pose, self.centre, placement)
     }
 
-    /// How many facets the shaders are compiled for, where each triangle is tested.
+    /// Number of facets for which the shaders are compiled, if each triangle is tested.
     pub fn facet_count(&self) -> Option<usize> {
         let rows = || self.instances.iter().map(|instance| instance.row_count as usize).sum();
         self.few.is_some().then(|| facets::padded(rows()))
     }
 
-    /// The triangles of all instances in world space, where each of them is tested.
+    /// The triangles of all instances in world space, if each is tested.
     pub fn facets(&self, pose: &Pose) -> Option<Facets> {
         let (corners, count) = (self.few.as_ref()?, self.facet_count()?);
         let (mut facets, mut owners) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! A scene laid out for the GPU, as plain data: what its buffers and textures will hold in the pose at rest.
+//! A scene laid out for the GPU, as plain data: the content of its buffers and textures in the rest pose.
 
 use super::arrangement::{Arrangement, Facets, lengths};
 use super::geometry::centre;
@@ -20,7 +20,7 @@ use crate::plan::Traits;
 use crate::scene::description::{Environment, Image, Pose, Scene, SceneError};
 use glam::DVec3;
 
-/// Slots of the traversal's stack: no tree that obvhs builds over real geometry comes near.
+/// Most slots of the traversal's stack. Trees that obvhs builds over real geometry need far fewer.
 const LARGEST_STACK: u32 = 64;
 
 /// All data of a scene.
@@ -30,7 +30,7 @@ pub(crate) struct Assembly<'a> {
     pub stack: u32,
     /// Rows of the lookup table.
     pub triangles: usize,
-    /// At rest; all that follows a pose is as it is there.
+    /// The rest pose. All other fields that depend on a pose show this one.
     pub pose: Pose,
     pub arrangement: Arrangement,
     pub header: Header,
@@ -41,7 +41,7 @@ pub(crate) struct Assembly<'a> {
     pub analytic_lights: Vec<AnalyticLight>,
     pub facets: Option<Facets>,
     pub images: &'a [Image],
-    /// None where it is black.
+    /// `None` if the environment is black.
     pub sky: Option<(&'a Environment, SkyTable)>,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Assembly<'a> {
     /// Builds the trees and lays everything out.
     ///
     /// # Errors
-    /// [`Scene::validate`]'s, and one that names the part of the scene that is larger than the device's textures or storage bindings.
+    /// The error of [`Scene::validate`], or one that names the part of the scene that exceeds the device's textures or storage bindings.
     pub fn of(scene: &'a Scene, capacity: &Capacity) -> Result<Self, SceneError> {
         scene.validate()?;
         let pose = scene.pose(None, 0.0);
@@ -129,7 +129,7 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// Builds the tree of each group and places it, once for each of its nodes. Gathers the triangles that shine.
+/// Builds the tree of each group and places it once for each of its nodes. Collects the triangles that emit.
 fn instances(
     scene: &Scene,
     pose: &Pose,
@@ -167,8 +167,8 @@ fn instances(
     instances
 }
 
-/// Slots that a traversal of so many levels needs: one for the bottom, one for the mark between the levels, one that is written
-/// before it is known to be kept.
+/// Slots that a traversal of so many levels needs. Three come on top: one for the bottom, one for the mark between the two levels of
+/// trees, and one that is written before it is known to be kept.
 fn checked_stack(levels: u32) -> Result<u32, SceneError> {
     let stack = (levels + 3).next_multiple_of(4);
     if stack <= LARGEST_STACK {

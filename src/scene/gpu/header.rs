@@ -29,7 +29,7 @@ pub(crate) struct Header {
 }
 
 impl Header {
-    /// The constants of a scene without an environment; [`Header::with_grid`] completes them.
+    /// The constants of a scene without an environment. [`Header::with_grid`] completes them.
     pub fn new(sections: &Sections, layout: Layout, lights: usize) -> Self {
         Self {
             instances: sections.records(),
@@ -45,7 +45,7 @@ impl Header {
         }
     }
 
-    /// With an environment that is this light of the table, chosen with this probability.
+    /// Adds an environment, which is the light with this number and this probability of being chosen.
     pub fn with_environment(self, sky: &SkyTable, light: usize, probability: f32) -> Self {
         Self {
             environment_light: light as u32,
@@ -58,7 +58,7 @@ impl Header {
         }
     }
 
-    /// With the grid of the boxes that rays meet first.
+    /// Adds the grid of the boxes that rays meet first.
     pub fn with_grid(self, grid: Quantization) -> Self {
         Self { grid_base: grid.base, grid_step: grid.step, ..self }
     }

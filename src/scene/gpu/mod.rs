@@ -1,4 +1,4 @@
-//! The GPU half: [`assembly`] lays a scene out as plain data, [`upload`] carries that out, [`arrangement`] follows the pose.
+//! The GPU half: [`assembly`] lays a scene out as plain data, [`upload`] makes its buffers, and [`arrangement`] follows the pose.
 
 mod arrangement;
 mod assembly;
@@ -27,11 +27,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use upload::Buffers;
 use wgpu::{BindingResource, CommandEncoder, Device, Queue};
 
-/// A [`Scene`] on the GPU: geometry and its trees once; placements, materials and lights as they are now.
+/// A [`Scene`] on the GPU: its geometry and trees, and placements, materials and lights in the current pose.
 ///
-/// Each mesh is stored once. What stands still is gathered into one tree in world space; meshes that move or repeat get
-/// trees of their own under a second level, which is rebuilt when something moved. Coordinates count from a centre near the
-/// scene's middle, so that a scene far from the origin looks as it does near.
+/// Each mesh is stored once. Static meshes share one tree in world space. Meshes that move or repeat have trees of their own under a
+/// second level, which is rebuilt when something moves. Coordinates are relative to a centre near the scene's middle, so that a scene
+/// far from the origin looks as it does near the origin.
 #[derive(Debug)]
 pub struct GpuScene {
     id: u64,
@@ -40,15 +40,15 @@ pub struct GpuScene {
     triangles: usize,
     arrangement: Arrangement,
     buffers: Buffers,
-    /// The pose as paths see it.
+    /// The current pose as paths see it.
     snapshot: Arc<Snapshot>,
 }
 
 impl GpuScene {
-    /// Builds the trees and uploads everything at rest. [`GpuScene::update`] then moves it.
+    /// Builds the trees and uploads the scene in its rest pose. [`GpuScene::update`] moves it.
     ///
     /// # Errors
-    /// [`Scene::validate`]'s, and one that names the part of the scene that is larger than the device's textures or storage bindings.
+    /// The error of [`Scene::validate`], or one that names the part of the scene that exceeds the device's textures or storage bindings.
     pub fn new(device: &Device, queue: &Queue, scene: &Scene) -> Result<Self, SceneError> {
         static NEXT: AtomicU64 = AtomicU64::new(1);
         let assembly = Assembly::of(scene, &Capacity::of(device))?;
@@ -60,12 +60,12 @@ impl GpuScene {
         Ok(Self { id, traits, stack, triangles, arrangement, buffers, snapshot })
     }
 
-    /// Moves what moves and dims what dims. A frame in which nothing does needs no call. What has changed since a denoiser's last
-    /// frame follows from the pose that it rendered then: in any order of calls, and for several denoisers. What changes is recorded
-    /// in the encoder, or goes into new buffers: frames that were recorded but not yet submitted keep theirs.
+    /// Brings the scene into a pose. A frame in which nothing changes needs no call. Each denoiser compares the pose with the one
+    /// that it rendered last, so calls may come in any order and several denoisers may show the scene. Changes are recorded in the
+    /// encoder or go into new buffers, so that frames recorded but not yet submitted keep their pose.
     ///
     /// # Errors
-    /// One that names the element of the pose that does not belong to this scene or is not finite; nothing has changed then.
+    /// Names the element of the pose that does not belong to this scene or is not finite. Nothing has changed then.
     pub fn update(&mut self, device: &Device, encoder: &mut CommandEncoder, pose: &Pose) -> Result<(), SceneError> {
         self.arrangement.check(pose)?;
         let (before, now) = (&self.snapshot.visible, self.arrangement.visible(pose));
@@ -87,12 +87,12 @@ impl GpuScene {
         Ok(())
     }
 
-    /// Number of triangles in the lookup table; instances share theirs.
+    /// Number of triangles in the lookup table. Instances of a mesh share its triangles.
     pub fn triangles(&self) -> usize {
         self.triangles
     }
 
-    /// What the scene has, and so what the passes must contain.
+    /// Properties of the scene that decide what its passes contain.
     pub fn traits(&self) -> Traits {
         self.traits
     }
@@ -102,17 +102,17 @@ impl GpuScene {
         self.buffers.memory()
     }
 
-    /// The scene as paths see it now.
+    /// The current pose as paths see it.
     pub(crate) fn snapshot(&self) -> &Arc<Snapshot> {
         &self.snapshot
     }
 
-    /// Where in the world coordinates on the GPU count from.
+    /// Origin of the coordinates on the GPU, in the world.
     pub(crate) fn centre(&self) -> [f64; 3] {
         self.arrangement.centre.to_array()
     }
 
-    /// How rays find their triangles in shaders for these traits, the scene's or more.
+    /// The search for triangles in shaders for these traits, which include the scene's.
     pub(crate) fn traversal(&self, traits: &Traits) -> Traversal {
         match self.arrangement.facet_count() {
             Some(count) if traits.few_triangles => Traversal::Every { triangles: count as u32 },
@@ -120,14 +120,14 @@ impl GpuScene {
         }
     }
 
-    /// Makes rays go down the trees whatever there is to test.
+    /// Makes rays descend the trees however few triangles there are.
     #[cfg(test)]
     pub(crate) fn use_trees(&mut self) {
         self.arrangement.few = None;
         self.traits.few_triangles = false;
     }
 
-    /// What stands behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
+    /// The resource behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
     pub(crate) fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
         match binding {
             "analytic_lights" => Some(self.snapshot.analytic_lights.as_entire_binding()),

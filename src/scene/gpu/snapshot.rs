@@ -1,4 +1,4 @@
-//! A scene in one pose, as far as paths can tell.
+//! A scene in one pose, as paths see it.
 
 use super::light::analytic::AnalyticLight;
 use super::memory::buffers::storage;
@@ -6,13 +6,13 @@ use super::memory::folded::Texel;
 use super::visible::Visible;
 use wgpu::{BindingResource, Buffer, Device};
 
-/// The scene as a denoiser rendered it last, from which it finds out what has moved since. The scene itself knows no last frame, because
-/// several denoisers may show it, each in its own time.
+/// The scene as a denoiser rendered it last. The denoiser compares it with the next frame's to find out what has moved. The scene
+/// itself knows no last frame, because several denoisers may show it, each in its own time.
 #[derive(Debug)]
 pub(crate) struct Snapshot {
     /// The scene's number in this process.
     pub scene: u64,
-    /// Where what is seen stands, what emits and how strongly.
+    /// Positions of all that is seen, and the strength of all that emits.
     pub visible: Visible,
     /// Placements of the instances: three rows of an affine matrix each.
     pub placements: Buffer,
@@ -28,12 +28,12 @@ impl Snapshot {
         Self { scene, visible, placements, analytic_lights }
     }
 
-    /// Whether it is of the same scene in the same pose.
+    /// True if both are of the same scene in the same pose.
     pub fn shows_the_same_as(&self, other: &Self) -> bool {
         self.scene == other.scene && self.visible == other.visible
     }
 
-    /// What stands behind a binding that reads the last frame's scene.
+    /// The resource behind a binding that reads the last frame's scene.
     pub fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
         match binding {
             "placements_previous" => Some(self.placements.as_entire_binding()),

@@ -4,7 +4,7 @@ use super::geometry::attributes::Layout;
 use crate::plan::Traits;
 use crate::scene::description::{Alpha, Material, Scene};
 
-/// What the materials and meshes in use ask of the shaders.
+/// Collects the traits that materials and meshes in use require of the shaders.
 pub(crate) fn traits(scene: &Scene, layout: Layout) -> Traits {
     let used = || {
         let placed: Vec<usize> = scene.nodes.iter().flat_map(|n| n.meshes.iter().copied()).collect();

@@ -1,4 +1,4 @@
-//! Carries an [`Assembly`] out: the buffers and textures of a scene.
+//! The buffers and textures of a scene, made from an [`Assembly`].
 
 use super::arrangement::{Facets, TopLevel};
 use super::assembly::Assembly;
@@ -56,14 +56,14 @@ impl Buffers {
         }
     }
 
-    /// Records the replacement of what stands where.
+    /// Records the replacement of the top level and the records of instances.
     pub fn replace_top_level(&mut self, device: &Device, encoder: &mut CommandEncoder, top_level: &TopLevel) {
         self.scene = buffer(device, "scene", bytemuck::bytes_of(&top_level.header), BufferUsages::UNIFORM);
         let first_row = top_level.header.root() / (folded::WIDTH / NODE_TEXELS) as u32;
         folded::replace(device, encoder, &self.geometry.0, first_row, &top_level.texels);
     }
 
-    /// Replaces the triangles in world space, where each of them is tested.
+    /// Replaces the triangles in world space of a scene that has few.
     pub fn replace_facets(&mut self, device: &Device, new: &Facets) {
         self.facets = facets(device, Some(new));
     }
@@ -129,7 +129,7 @@ fn folded<T: Pod>(device: &Device, queue: &Queue, label: &str, values: &[T]) -> 
     (texture, view)
 }
 
-/// The triangles and their owners; shaders that bind none get a placeholder.
+/// The triangles in world space and their owners, or placeholders.
 fn facets(device: &Device, facets: Option<&Facets>) -> [Buffer; 2] {
     let Some(Facets { facets, owners }) = facets else {
         let empty = storage(device, "placeholder", &[0_u32; 4], 16);

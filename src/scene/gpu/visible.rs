@@ -11,18 +11,18 @@ pub(crate) struct Visible {
 }
 
 impl Visible {
-    /// `nodes` are those with something to see.
+    /// The visible part of a pose, given the nodes that hold something visible.
     pub fn new(pose: &Pose, nodes: impl Iterator<Item = usize>) -> Self {
         let placed = nodes.map(|node| pose.world[node]).collect();
         Self { placed, emission: pose.emission.clone(), intensity: pose.intensity.clone() }
     }
 
-    /// Whether everything stands where it stood.
+    /// True if everything stands in the same place.
     pub fn is_placed_as(&self, other: &Self) -> bool {
         self.placed == other.placed
     }
 
-    /// Whether materials emit as they did.
+    /// True if all materials emit the same.
     pub fn emits_as(&self, other: &Self) -> bool {
         self.emission == other.emission
     }

@@ -1,5 +1,5 @@
-//! Importers: files to descriptions. [`dispatch`] chooses the format, `gltf`, `obj` and `environment` read one each, and
-//! [`common`] holds what they share.
+//! Importers, from files to descriptions. `dispatch` chooses the format of a scene file, `gltf` and `obj` read one format each,
+//! `environment` reads pictures of the surroundings, and [`common`] is the vocabulary of all.
 
 mod common;
 #[cfg(any(feature = "gltf", feature = "obj"))]

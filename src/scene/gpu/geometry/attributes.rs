@@ -4,8 +4,8 @@ use super::groups::Face;
 use crate::scene::description::{Material, Mesh, Scene};
 use glam::{Vec2, Vec3};
 
-/// Where a triangle's words lie in the attributes: three normals, then three (u, v) per set, then three
-/// colours, each only if the scene needs it.
+/// Places of a triangle's words in the attributes: three normals, then three (u, v) per set, then three colours, each only if the
+/// scene needs it.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Layout {
     pub stride: usize,
@@ -42,7 +42,7 @@ impl Layout {
         let [a, b, c] = mesh.triangles[face.triangle];
         let corners = if face.placement.determinant() < 0.0 { [a, c, b] } else { [a, b, c] };
         if self.normals {
-            // Normals go with the inverse's transpose.
+            // Normals transform by the transpose of the inverse.
             let map = face.placement.inverse().transpose().as_mat3();
             for corner in corners {
                 let normal = mesh.normals.get(corner as usize).map_or(Vec3::ZERO, |&n| map * Vec3::from(n));
@@ -66,7 +66,7 @@ impl Layout {
     }
 }
 
-/// A unit vector as two 16-bit numbers on the unfolded octahedron (Meyer et al. 2010); never 0, which means none.
+/// A unit vector as two 16-bit numbers on the unfolded octahedron (Meyer et al. 2010). Never 0, which means no normal.
 fn pack_octahedral(n: Vec3) -> u32 {
     let p = Vec2::new(n.x, n.y) / (n.x.abs() + n.y.abs() + n.z.abs());
     let sign = Vec2::new(1.0_f32.copysign(p.x), 1.0_f32.copysign(p.y));

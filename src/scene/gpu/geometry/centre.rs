@@ -1,29 +1,30 @@
-//! The point that coordinates on the GPU count from.
+//! The origin of coordinates on the GPU.
 //!
-//! Shaders compute in f32, whose steps are 1/32 m at 500 km: neither a surface nor the start of a ray could be placed to a millimetre
-//! there. A scene on the GPU is therefore stored relative to a centre near its middle. The difference is taken in f64, where it is
-//! exact for coordinates that came as f32, and rounded once.
+//! Shaders compute in f32, whose steps are 1/32 m at 500 km. Neither a surface nor the start of a ray could be placed to a millimetre
+//! there, so a scene on the GPU is stored relative to a centre near its middle. The difference is taken in f64, where it is exact for
+//! coordinates that came as f32, and rounded once.
 
 use crate::scene::description::WorldMatrix;
 use glam::{DMat4, DVec3, Mat4};
 
-/// The centre for what lies between two corners: their middle, rounded to a multiple of a power of two of twice to four times the longest
-/// side. So whatever contains the origin counts from the origin, and copies of a scene that are whole multiples apart get the same numbers.
+/// The centre of a box between two corners: its middle, rounded to a multiple of a power of two that is two to four times the longest
+/// side. A box that contains the origin therefore has its centre at the origin, and copies of a scene that are whole multiples apart
+/// have the same coordinates.
 pub(crate) fn centre([low, high]: [DVec3; 2]) -> DVec3 {
     let side = (high - low).max_element();
     let step = if side > 0.0 { (2.0 * side).log2().ceil().exp2() } else { 1.0 };
-    // Not `round`, which rounds halves away from the origin, and so differently on both of its sides.
+    // `round` would round halves away from the origin, and so differently on its two sides.
     let centre = ((0.5 * (low + high)) / step + 0.5).floor() * step;
-    // Beyond the range of numbers there is no better place.
+    // Beyond the range of numbers, the origin is as good as any other place.
     if centre.is_finite() { centre } else { DVec3::ZERO }
 }
 
-/// The corners of the box around some points, if there are any.
+/// The corners of the box around some points, or `None` without points.
 pub(crate) fn bounds(points: impl IntoIterator<Item = DVec3>) -> Option<[DVec3; 2]> {
     points.into_iter().map(|p| [p; 2]).reduce(|[low, high], [a, b]| [low.min(a), high.max(b)])
 }
 
-/// A placement between spaces that count from points of their own.
+/// A placement from a space with the origin `from` into one with the origin `to`.
 pub(crate) fn relative(world: &WorldMatrix, from: DVec3, to: DVec3) -> Mat4 {
     let world = DMat4::from_cols_array_2d(world);
     (DMat4::from_translation(-to) * world * DMat4::from_translation(from)).as_mat4()
@@ -71,7 +72,7 @@ mod tests {
         let offset = DVec3::new(524_288.0, 0.0, -524_288.0);
         let world = DMat4::from_translation(offset + DVec3::new(1e-3, 0.25, 0.0)).to_cols_array_2d();
         assert_eq!(relative(&world, DVec3::ZERO, offset).w_axis.to_array(), [1e-3_f64 as f32, 0.25, 0.0, 1.0]);
-        // A mesh whose own vertices are far, brought back by its node.
+        // A node brings a mesh back whose own vertices are far.
         let back = DMat4::from_translation(-offset).to_cols_array_2d();
         assert_eq!(relative(&back, offset, DVec3::ZERO), Mat4::IDENTITY);
     }

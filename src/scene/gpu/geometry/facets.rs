@@ -1,16 +1,16 @@
-//! The triangles of a scene that has few, as shaders/shared/few_triangles.wgsl reads them.
+//! The triangles of a scene with few of them, as shaders/shared/few_triangles.wgsl reads them.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Mat4};
 
-/// Triangles up to which testing each is faster than a tree on an adapter that is the CPU: at 48, three times as fast; shaders
-/// grow with each.
+/// Most triangles that are tested one by one. On an adapter that is the CPU this is faster than a tree: at 48 triangles, three times
+/// as fast. There is a limit because shaders grow with each triangle.
 pub(crate) const MOST: usize = 64;
 
-/// They are tested in groups of this many.
+/// Number of triangles that are tested together.
 const GROUP: usize = 8;
 
-/// How many facets the shaders are compiled for.
+/// Number of facets for which the shaders are compiled.
 pub(crate) fn padded(count: usize) -> usize {
     count.next_multiple_of(GROUP).max(GROUP)
 }
@@ -26,7 +26,7 @@ pub(crate) struct Facet {
 }
 
 impl Facet {
-    /// A triangle after a placement; one without area becomes one that is never hit.
+    /// A triangle after a placement. A triangle without area becomes a facet that is never hit.
     pub fn new(corners: [[f32; 3]; 3], placement: Mat4) -> Self {
         let placement = placement.as_dmat4();
         let [a, b, c] = corners.map(|p| placement.transform_point3(DVec3::from(p.map(f64::from))));
@@ -35,7 +35,7 @@ impl Facet {
         let narrow = |v: DVec3| v.as_vec3().to_array();
         let facet = Self {
             corner: narrow(a),
-            // Of length 1, so that tiny and huge triangles are not lost to the range of f32.
+            // With length 1, tiny and huge triangles stay within the range of f32.
             normal: narrow(normal.normalize_or_zero()),
             to_u: narrow(edge_c.cross(normal) / normal.length_squared()),
             to_v: narrow(normal.cross(edge_b) / normal.length_squared()),

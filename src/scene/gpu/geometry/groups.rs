@@ -5,21 +5,21 @@ use crate::scene::description::{Mesh, Scene, WorldMatrix};
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use std::collections::BTreeMap;
 
-/// A static mesh that is used several times is still copied into the static geometry, where it costs no second level of
-/// the tree, as long as the copies have fewer triangles than this.
+/// Most triangles in all copies of a static mesh that is used several times and still copied into the static geometry. A copy saves
+/// the second level of trees.
 const COPIED_TRIANGLES: usize = 4096;
 
 /// Geometry that shares a tree, in the tree's space.
 pub(crate) struct Group {
-    /// The nodes that place it, or none for the static geometry, which is in world space already.
+    /// The nodes that place it. Empty for the static geometry, which is in world space already.
     pub nodes: Vec<usize>,
-    /// Where in that space the corners count from.
+    /// Origin of the corners, in the space of the tree.
     pub centre: DVec3,
     pub faces: Vec<Face>,
 }
 
 impl Group {
-    /// The nodes of its instances: `None` for the static geometry.
+    /// The node of each instance. The static geometry is one instance, without a node.
     pub fn placements(&self) -> Vec<Option<usize>> {
         if self.nodes.is_empty() { vec![None] } else { self.nodes.iter().copied().map(Some).collect() }
     }
@@ -31,19 +31,19 @@ pub(crate) struct Face {
     pub mesh: usize,
     pub triangle: usize,
     pub corners: [Vec3; 3],
-    /// The linear map that was applied to the corners, and that the normals follow.
+    /// The linear map that placed the corners. Normals follow it.
     pub placement: DMat3,
 }
 
 impl Face {
-    /// Half the cross product of the edges: as long as the area.
+    /// Half the cross product of the edges. Its length is the area.
     pub fn area_normal(&self) -> Vec3 {
         0.5 * (self.corners[1] - self.corners[0]).cross(self.corners[2] - self.corners[0])
     }
 }
 
-/// Sorts the scene's meshes into groups: all that stands still first (in world space, where its nodes are `world`, relative to `centre`), then
-/// one group for each mesh that moves or repeats.
+/// Sorts the scene's meshes into groups. The static geometry comes first, in world space as `world` places its nodes, relative to
+/// `centre`. One group follows for each mesh that moves or repeats.
 pub(crate) fn groups(scene: &Scene, world: &[WorldMatrix], centre: DVec3) -> Vec<Group> {
     let moves = scene.animated_nodes();
     let mut uses: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -88,7 +88,7 @@ fn faces(mesh: &Mesh, index: usize, world: DMat4, centre: DVec3) -> impl Iterato
     let mirrored = placement.determinant() < 0.0;
     mesh.triangles.iter().enumerate().map(move |(triangle, corners)| {
         let [a, b, c] = corners.map(|v| (world.transform_point3(position(mesh, v)) - centre).as_vec3());
-        // A mirroring placement turns the winding over; turned back here, the front stays the front.
+        // A mirroring placement reverses the winding. It is reversed again here, so that the front stays the front.
         let corners = if mirrored { [a, c, b] } else { [a, b, c] };
         Face { mesh: index, triangle, corners, placement }
     })

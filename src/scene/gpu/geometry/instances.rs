@@ -1,4 +1,4 @@
-//! Trees placed in the world: the top level over them, and their records as shaders/shared/scene.wgsl reads them.
+//! Trees placed in the world, the top level above them, and their records as shaders/shared/scene.wgsl reads them.
 
 use super::centre::relative;
 use crate::scene::description::Pose;
@@ -13,9 +13,9 @@ const RECORD_TEXELS: usize = 10;
 /// A tree placed in the world.
 #[derive(Debug)]
 pub(crate) struct Instance {
-    /// The node that places it; `None` for the static geometry, which is in world space already.
+    /// The node that places the tree. `None` for the static geometry, which is in world space already.
     pub node: Option<usize>,
-    /// Where in the node's space the tree's coordinates count from.
+    /// Origin of the tree's coordinates, in the space of the node.
     pub centre: DVec3,
     pub root: u32,
     pub first_row: u32,
@@ -28,13 +28,13 @@ pub(crate) struct Instance {
 }
 
 impl Instance {
-    /// Where it stands in a pose, relative to the scene's centre.
+    /// The placement in a pose, relative to the scene's centre.
     pub fn placement(&self, pose: &Pose, centre: DVec3) -> Mat4 {
         self.node.map_or(Mat4::IDENTITY, |n| relative(&pose.world[n], self.centre, centre))
     }
 }
 
-/// Nodes of a top level over this many instances, at most: each inner node joins two.
+/// Most nodes of a top level over this many instances: each inner node joins two.
 pub(crate) fn top_level_nodes(instances: usize) -> usize {
     instances.saturating_sub(1).max(1)
 }
@@ -47,7 +47,7 @@ pub(crate) fn top_level_texels(instances: usize) -> usize {
 /// The top level and the records of instances.
 pub(crate) struct Placed {
     pub texels: Vec<Texel>,
-    /// Of the top level.
+    /// Depth of the top level.
     pub depth: u32,
     pub grid: Quantization,
 }
@@ -57,7 +57,7 @@ pub(crate) fn place(instances: &[Instance], pose: &Pose, centre: DVec3, first_no
     let boxes: Vec<_> = instances.iter().map(|i| transform_box(i.placement(pose, centre), i.bounds)).collect();
     let top = tree::over_instances(&boxes, first_node);
     let mut texels = folded::texels(&top.nodes).to_vec();
-    // As many nodes as any tree over these instances can have, so that the records stay where they are.
+    // Room for the most nodes that a tree over these instances can have, so that the records never move.
     texels.resize(top_level_nodes(instances.len()) * NODE_TEXELS, Texel::default());
     for (instance, bounds) in instances.iter().zip(&boxes) {
         let now = instance.placement(pose, centre);
@@ -73,7 +73,7 @@ pub(crate) fn place(instances: &[Instance], pose: &Pose, centre: DVec3, first_no
     Placed { texels, depth: top.depth, grid: top.grid }
 }
 
-/// The placements alone, as a later frame reads where instances were.
+/// The placements alone, by which a later frame knows where instances were.
 pub(crate) fn rows_of(instances: &[Instance], pose: &Pose, centre: DVec3) -> Vec<Texel> {
     instances.iter().flat_map(|instance| rows(instance.placement(pose, centre))).collect()
 }
@@ -87,14 +87,14 @@ fn rows(m: Mat4) -> [Texel; 3] {
     [m.row(0), m.row(1), m.row(2)].map(|r: Vec4| r.to_array().map(f32::to_bits))
 }
 
-/// The inverse, in double precision; a placement that flattens has none and is never hit: its inverse is taken as 0.
+/// The inverse, in double precision. A placement that flattens has none: 0 replaces it, and the instance is never hit.
 fn inverse(m: Mat4) -> Mat4 {
     let m = m.as_dmat4();
     if m.determinant() == 0.0 { Mat4::ZERO } else { m.inverse().as_mat4() }
 }
 
-/// How far f32 may shift a point of a box along each axis on its way into an instance's space: four roundings of the terms of each sum, seen
-/// from the world again.
+/// The largest shift along each axis, in world space, that f32 adds to a point of a box on its way into an instance's space: four
+/// roundings of the terms of each sum.
 fn rounding(now: Mat4, back: Mat4, [low, high]: [[f32; 3]; 2]) -> [f32; 3] {
     if back == Mat4::IDENTITY {
         return [0.0; 3];
@@ -106,7 +106,7 @@ fn rounding(now: Mat4, back: Mat4, [low, high]: [[f32; 3]; 2]) -> [f32; 3] {
     (terms(now, inside.truncate()).truncate() * 4.0 * f64::from(f32::EPSILON / 2.0)).as_vec3().to_array()
 }
 
-/// A box around a box after a placement.
+/// The box around a box that was placed.
 fn transform_box(m: Mat4, [low, high]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
     let (mut a, mut b) = (Vec3::splat(f32::INFINITY), Vec3::splat(f32::NEG_INFINITY));
     for corner in 0..8 {
@@ -115,7 +115,7 @@ fn transform_box(m: Mat4, [low, high]: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
         a = a.min(p);
         b = b.max(p);
     }
-    // Rounding in the transformation may not lose a hit on the box's face.
+    // Without a margin, rounding in the transformation could lose a hit on the face of the box.
     let margin = (a.abs().max(b.abs())) * 4e-7;
     [(a - margin).to_array(), (b + margin).to_array()]
 }

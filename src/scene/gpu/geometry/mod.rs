@@ -1,4 +1,4 @@
-//! Triangles on the GPU: groups that share a tree, their rows and attributes, and where instances place them.
+//! Triangles on the GPU: groups that share a tree, their rows and attributes, and the instances that place them.
 
 pub(crate) mod attributes;
 pub(crate) mod centre;

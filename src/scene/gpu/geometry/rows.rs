@@ -7,17 +7,17 @@ use crate::scene::gpu::memory::folded::Texel;
 use crate::scene::gpu::tree::{self, Quantization, Tree};
 use glam::Vec3;
 
-/// All trees and rows of a scene, as they go to the GPU.
+/// All trees and rows of a scene.
 pub(crate) struct Geometry {
     /// Number of the first of `nodes`.
     pub first_node: u32,
     pub nodes: Vec<tree::Node>,
     /// Three vertices with one word each: material, number among its instance's emitters + 1, unused.
     pub rows: Vec<[Texel; 3]>,
-    /// See [`Layout`].
+    /// Words laid out by [`Layout`].
     pub attributes: Vec<u32>,
     pub layout: Layout,
-    /// Deepest of the trees.
+    /// Depth of the deepest tree.
     pub depth: u32,
 }
 
@@ -27,7 +27,7 @@ pub(crate) struct Built {
     pub first_row: u32,
     pub bounds: [[f32; 3]; 2],
     pub grid: Quantization,
-    /// Faces of the group that emit, in the order of their numbers, with their row.
+    /// The faces that emit, each with its row, in the order of their numbers.
     pub emitters: Vec<(u32, Face)>,
 }
 

@@ -8,11 +8,11 @@ use crate::scene::gpu::tree::Node;
 /// Texels of a row of the lookup table, as in shaders/shared/scene.wgsl.
 const ROW_TEXELS: usize = 3;
 
-/// Where the parts begin. The top level and the instances' records have texture rows of their own, because they are replaced when
+/// Places of the parts. The top level and the records of instances have texture rows of their own, because they are replaced when
 /// something moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Sections {
-    /// There are two levels of trees.
+    /// True if there are two levels of trees.
     pub instanced: bool,
     pub instances: usize,
     /// First texel of the top level.

@@ -1,6 +1,6 @@
-//! Alias tables: choosing one of n by weight with one random number and one look-up (Walker 1974).
+//! Alias tables, which choose one of n by weight with one random number and one look-up (Walker 1974).
 
-/// An entry: a number whose fraction is below `threshold` keeps the entry, any other takes `alias`.
+/// An entry. A random number whose fraction is below `threshold` keeps the entry, any other takes `alias`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Entry {
     pub threshold: f32,
@@ -9,8 +9,8 @@ pub(crate) struct Entry {
     pub pmf: f32,
 }
 
-/// Builds the table with Vose's method (1991). Weights that are not positive are never chosen; where none is, all are
-/// alike.
+/// Builds the table with Vose's method (1991). Weights that are not positive are never chosen. If no weight is positive, all entries
+/// are equally likely.
 pub(crate) fn table(weights: &[f64]) -> Vec<Entry> {
     let count = weights.len();
     let positive = |w: f64| if w.is_finite() && w > 0.0 { w } else { 0.0 };
@@ -38,7 +38,7 @@ pub(crate) fn table(weights: &[f64]) -> Vec<Entry> {
 mod tests {
     use super::*;
 
-    /// The probability of each index that a table really gives, summed over its entries.
+    /// The probability with which a table really chooses each index, summed over its entries.
     fn realised(entries: &[Entry]) -> Vec<f64> {
         let mut p = vec![0.0; entries.len()];
         for (i, e) in entries.iter().enumerate() {

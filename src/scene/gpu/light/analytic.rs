@@ -4,7 +4,7 @@ use super::luminance::luminance;
 use super::record::GpuLight;
 use bytemuck::{Pod, Zeroable};
 
-/// The gradient evaluates this many lights at most; the strongest are kept.
+/// Most lights that the gradient evaluates. The strongest are kept.
 const MOST: usize = 64;
 
 /// `AnalyticLight` of shaders/shared/blinn_phong.wgsl.
@@ -37,7 +37,7 @@ impl From<GpuLight> for AnalyticLight {
     }
 }
 
-/// The strongest of the lights, at least one entry, each with their number.
+/// The strongest of the lights, each with their number. An empty list gets one entry, because a binding is never empty.
 pub(crate) fn strongest(mut lights: Vec<AnalyticLight>) -> Vec<AnalyticLight> {
     lights.sort_by(|a, b| luminance(b.intensity).total_cmp(&luminance(a.intensity)));
     lights.truncate(MOST);
@@ -68,7 +68,6 @@ mod tests {
         assert!(kept.iter().all(|light| light.count == 64));
         let strengths: Vec<f32> = kept.iter().map(|light| light.intensity[0]).collect();
         assert_eq!(strengths, (36..100).rev().map(|strength| strength as f32).collect::<Vec<_>>());
-        // A binding is never empty.
         assert!(matches!(strongest(Vec::new())[..], [AnalyticLight { count: 0, .. }]));
     }
 }

@@ -1,4 +1,4 @@
-//! Triangles that shine, as the Blinn–Phong gradient sees them.
+//! Triangles that emit, as the Blinn–Phong gradient sees them.
 
 use super::analytic::AnalyticLight;
 use super::punctual::LONGEST_RANGE;
@@ -6,7 +6,7 @@ use super::record::{EMITTER, POINT};
 use crate::scene::description::{Material, Pose};
 use glam::{Mat4, Vec3};
 
-/// The triangles of one instance that share an emitting material, as the analytic gradient sees them.
+/// The triangles of one instance that share an emitting material, as one light.
 #[derive(Debug, Default)]
 pub(crate) struct Emitter {
     pub instance: usize,
@@ -25,8 +25,8 @@ impl Emitter {
         self.area += area;
     }
 
-    /// A flat emitter is a cosine lobe of radiance times area; one that is closed shows a quarter of its area from
-    /// everywhere (Cauchy), like a point light. `placement` is the instance's.
+    /// The light after the instance's placement. A flat emitter is a cosine lobe of radiance times area. A closed one shows a quarter
+    /// of its area in every direction (Cauchy), like a point light.
     pub fn analytic(&self, materials: &[Material], pose: &Pose, placement: Mat4) -> AnalyticLight {
         let scale = placement.determinant().abs().powf(2.0 / 3.0);
         let (emissive, factor) = (materials[self.material].emissive, pose.emission[self.material]);

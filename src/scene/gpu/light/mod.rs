@@ -1,4 +1,4 @@
-//! Everything that shines, and the tables by which paths choose one of them.
+//! Everything that emits, and the tables by which a path chooses one light.
 
 mod alias;
 pub(crate) mod analytic;

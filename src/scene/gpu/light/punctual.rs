@@ -6,8 +6,7 @@ use crate::scene::description::{Light, LightKind};
 use glam::{Mat4, Vec3};
 use std::f64::consts::PI;
 
-/// Longest range in metres, so that its square, which shaders take, stays within f32. A light with this range does not fade at
-/// distances of up to 10¹⁶ m.
+/// Longest range in metres. Shaders square it, and the square stays within f32. A light with this range does not fade within 10¹⁶ m.
 pub(super) const LONGEST_RANGE: f32 = 1e18;
 
 /// A light without area and the node that places it.
@@ -18,7 +17,7 @@ pub(crate) struct Punctual {
     pub light: Light,
 }
 
-/// A light without area where its node's placement puts it, `factor` times as strong as described.
+/// The light after its node's placement, `factor` times as strong as described.
 pub(crate) fn placed(light: &Light, placement: Mat4, factor: [f32; 3]) -> GpuLight {
     let axis = placement.transform_vector3(Vec3::NEG_Z).normalize_or(Vec3::NEG_Z);
     // KHR_lights_punctual: intensity · saturate(cos·scale + offset)².
@@ -42,7 +41,7 @@ pub(crate) fn placed(light: &Light, placement: Mat4, factor: [f32; 3]) -> GpuLig
     }
 }
 
-/// Power of a light without area, in a scene of this radius: what its probability is proportional to.
+/// Power of the light in a scene of this radius. Its probability is proportional to it.
 pub(crate) fn power(light: &Light, radius: f64) -> f64 {
     let intensity = luminance(light.intensity);
     match light.kind {
@@ -65,7 +64,7 @@ mod tests {
     fn a_light_without_a_range_does_not_fade() {
         let range = range(f32::INFINITY);
         for distance in [1.0_f32, 1e6, 1e10, 1e15] {
-            // As light.wgsl and blinn_phong.wgsl have it.
+            // The formulas of light.wgsl and blinn_phong.wgsl.
             let paths = distance / range;
             let gradient = distance * distance / (range * range);
             assert!((range * range).is_finite());

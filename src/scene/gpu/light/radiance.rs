@@ -1,10 +1,10 @@
 //! Radiances of the environment in 62 bits.
 
-/// Packs a radiance as `pack_rgb` of shaders/shared/packing.wgsl packs half of it: that format ends at 2¹²⁷, f32 at 2¹²⁸. Its error
-/// is at most 2⁻¹⁸ of the largest channel, and below 2⁻¹⁰⁸ at most 2⁻¹²⁶.
+/// Packs half of a radiance as `pack_rgb` of shaders/shared/packing.wgsl does, because that format ends at 2¹²⁷ and f32 at 2¹²⁸. The
+/// error is at most 2⁻¹⁸ of the largest channel, and at most 2⁻¹²⁶ below 2⁻¹⁰⁸.
 pub(crate) fn pack(radiance: [f32; 3]) -> [u32; 2] {
     let largest = radiance.into_iter().fold(0.0, f32::max);
-    // Half of the largest channel is below 2^(exponent − 127), which its bits tell.
+    // Half of the largest channel is below 2^(exponent − 127), and the exponent is in its bits.
     let mut exponent = (largest.to_bits() >> 23).clamp(19, 254);
     let mantissas = |exponent: u32| {
         let scale = f32::from_bits((271 - exponent) << 23);

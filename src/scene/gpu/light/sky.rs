@@ -1,9 +1,9 @@
 //! The table by which light samples choose a texel of the environment.
 //!
 //! Texels are chosen in proportion to luminance times solid angle. An alias table with an entry for each texel would take more memory
-//! than an 8192 × 4096 picture itself. Its entries are therefore cells, runs of a row's texels; the shader goes along the run, whose
-//! texels have the same solid angle, and stops where the luminances that it has passed reach a random share of their sum. In pictures of
-//! up to 1024 × 1024 texels a cell is a texel.
+//! than an 8192 × 4096 picture itself. An entry therefore stands for a cell, a run of texels of one row. The shader goes along the run,
+//! whose texels have the same solid angle, and stops at the texel where the luminances passed so far reach a random share of their
+//! sum. In pictures of up to 1024 × 1024 texels a cell is a texel.
 
 use super::alias;
 use super::luminance::luminance;
@@ -13,22 +13,22 @@ use crate::scene::gpu::memory::folded::Texel;
 use std::f64::consts::PI;
 use wgpu::Limits;
 
-/// Cells of a picture, at most: 16 MiB of table. A cell of 4096 × 2048 texels has 8 of them, one of 8192 × 4096 has 32.
+/// Most cells of a picture: 16 MiB of table. A cell has 8 texels in a picture of 4096 × 2048, and 32 in one of 8192 × 4096.
 const MOST_CELLS: u32 = 1 << 20;
 
-/// How a picture is divided into cells, as shaders/shared/light.wgsl counts them. Powers of two make divisions shifts.
+/// The division of a picture into cells, as shaders/shared/light.wgsl counts them. With powers of two, divisions are shifts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Cells {
     /// log₂ of the texels of a cell.
     pub run: u32,
-    /// log₂ of the cells of a row; those beyond the right edge are empty.
+    /// log₂ of the cells of a row. Cells beyond the right edge are empty.
     pub columns: u32,
-    /// log₂ of all cells; those below the last row are empty.
+    /// log₂ of all cells. Cells below the last row are empty.
     pub all: u32,
 }
 
 impl Cells {
-    /// As fine as at most so many cells allow.
+    /// The finest division into at most so many cells.
     fn of(width: u32, height: u32, most: u32) -> Self {
         let log2 = |n: u32| n.next_power_of_two().ilog2();
         let of_run = |run: u32| {
@@ -49,17 +49,17 @@ pub(crate) struct SkyTable {
     /// Texels per row of the environment, and rows.
     pub size: [u32; 2],
     pub cells: Cells,
-    /// An entry for each cell, see [`Sums::table`].
+    /// One entry for each cell, from [`Sums::table`].
     pub texels: Vec<Texel>,
     /// Σ luminance · solid angle.
     pub weight: f64,
 }
 
 impl SkyTable {
-    /// Returns `None` for an environment that is black.
+    /// The table of an environment, or `None` for a black one.
     ///
     /// # Errors
-    /// The picture is larger than a texture of the device.
+    /// Names the environment if it is larger than a texture of the device.
     pub fn of(environment: &Environment, limits: &Limits) -> Result<Option<Self>, SceneError> {
         let &Environment { width, height, ref radiance } = environment;
         check(width, height, limits)?;
@@ -104,7 +104,7 @@ impl Sums {
         Self { width, height, cells, luminance: vec![0.0; 1 << cells.all], rows: 0 }
     }
 
-    /// Adds the next row: of the radiances as shaders see them, because their density follows from these.
+    /// Adds the next row of packed radiances: shaders see these, and their densities follow from them.
     fn add_row(&mut self, packed: &[[u32; 2]]) {
         let first = self.rows << self.cells.columns;
         for (cell, run) in self.luminance[first..].iter_mut().zip(packed.chunks(1 << self.cells.run)) {
@@ -119,8 +119,8 @@ impl Sums {
         2.0 * PI / f64::from(self.width) * (edge(row) - edge(row + 1))
     }
 
-    /// The table's texels, and Σ luminance · solid angle. A texel holds the threshold up to which its own cell is kept, the
-    /// other cell, and the two cells' luminances.
+    /// The table's texels, and Σ luminance · solid angle. A texel holds the threshold below which its own cell is kept, the other
+    /// cell, and the luminances of both.
     fn table(&self) -> (Vec<Texel>, f64) {
         let mut weights = self.luminance.clone();
         for (row, cells) in weights.chunks_mut(1 << self.cells.columns).enumerate().take(self.rows) {
@@ -152,7 +152,7 @@ mod tests {
         sums
     }
 
-    /// Probability of each cell that the table really gives.
+    /// The probability with which the table really chooses each cell.
     fn realised(table: &[Texel]) -> Vec<f64> {
         let mut p = vec![0.0; table.len()];
         for (own, &[threshold, other, ..]) in table.iter().enumerate() {
@@ -198,7 +198,7 @@ mod tests {
                         let expected = brightness * sums.solid_angle(y as usize);
                         expected_sum += expected;
                         let cell = ((y << sums.cells.columns) + (x >> sums.cells.run)) as usize;
-                        // Both ways to the cell tell the same sum.
+                        // Both ways to a cell give the same sum.
                         let of_cell = f64::from(f32::from_bits(table[cell][2]));
                         let other = table[cell][1] as usize;
                         assert_eq!(table[cell][3], table[other][2], "{what}");

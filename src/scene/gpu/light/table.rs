@@ -1,8 +1,8 @@
-//! The list of everything that shines, in a fixed order with fixed probabilities.
+//! The list of everything that emits, in a fixed order with fixed probabilities.
 //!
 //! The temporal gradient compares paths that share their random numbers. A light must therefore keep its number and its
-//! probability while it moves, dims or is switched off: both follow from the scene at rest with every light at its
-//! nominal strength, and momentary strengths only enter the radiance.
+//! probability while it moves, dims or is switched off. Both follow from the rest pose with every light at its nominal strength, and
+//! momentary strengths only enter the radiance.
 
 use super::alias;
 use super::analytic::{AnalyticLight, strongest};
@@ -20,9 +20,9 @@ use std::f64::consts::PI;
 /// All lights of a scene.
 #[derive(Debug)]
 pub(crate) struct Lights {
-    /// Triangles that shine, then lights without area, then the environment.
+    /// Triangles that emit, then lights without area, then the environment.
     pub table: Vec<GpuLight>,
-    /// Place in the table of the first of `punctual`, which follow each other.
+    /// Place of the first of `punctual` in the table. The others follow it.
     first_punctual: usize,
     punctual: Vec<Punctual>,
     emitters: Vec<Emitter>,
@@ -34,7 +34,7 @@ impl Lights {
         self.punctual.iter().map(|light| light.node)
     }
 
-    /// Puts the lights where they are in a pose. Returns those of the Blinn–Phong gradient. `placement` is that of an instance.
+    /// Places the lights in a pose, where an instance has this `placement`. Returns those that the Blinn–Phong gradient evaluates.
     pub fn place(
         &mut self,
         materials: &[Material],
@@ -54,7 +54,7 @@ impl Lights {
     }
 }
 
-/// Gathers the lights of a scene with their powers, from which the probabilities follow.
+/// Collects the lights of a scene with their powers, from which the probabilities follow.
 #[derive(Default)]
 pub(crate) struct LightList {
     table: Vec<GpuLight>,
@@ -65,12 +65,12 @@ pub(crate) struct LightList {
 }
 
 impl LightList {
-    /// How many there are so far.
+    /// Number of lights so far.
     pub fn len(&self) -> usize {
         self.table.len()
     }
 
-    /// Adds a triangle in a row of the lookup table, with the material's number, as `placement` places its instance.
+    /// Adds a triangle with its row in the lookup table and its instance, which has this `placement`.
     pub fn add_emitter(
         &mut self,
         (instance, row): (usize, u32),
@@ -116,8 +116,7 @@ impl LightList {
     }
 }
 
-/// Adds probabilities to a list of lights by their powers. A tenth is shared out evenly, so that a light that is weak
-/// but near somewhere is not starved there.
+/// Gives the lights probabilities by their powers. A tenth is shared out evenly, so that a weak light is not starved where it is near.
 fn assign_probabilities(lights: &mut [GpuLight], powers: &[f64]) {
     let total: f64 = powers.iter().sum();
     let count = lights.len() as f64;

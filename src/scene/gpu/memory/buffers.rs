@@ -1,4 +1,4 @@
-//! Buffers that hold what does not change.
+//! Buffers that are filled once.
 
 use crate::gpu::filled::filled;
 use bytemuck::Pod;
@@ -8,7 +8,7 @@ pub(crate) fn buffer(device: &Device, label: &str, contents: &[u8], usage: Buffe
     filled(device, &format!("asvgf {label}"), contents, usage)
 }
 
-/// A storage buffer, of at least the bytes that its binding needs.
+/// A storage buffer of at least `least` bytes, as its binding requires.
 pub(crate) fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -> Buffer {
     let bytes: &[u8] = bytemuck::cast_slice(contents);
     if bytes.len() >= least {

@@ -9,7 +9,7 @@ use wgpu::{Device, DeviceType, Limits};
 #[derive(Clone, Debug)]
 pub(crate) struct Capacity {
     pub limits: Limits,
-    /// The adapter is the CPU.
+    /// True if the adapter is the CPU.
     pub on_cpu: bool,
 }
 
@@ -23,7 +23,8 @@ impl Capacity {
         self.limits.max_storage_buffer_binding_size.min(self.limits.max_buffer_size)
     }
 
-    /// Checks the texels of a folded texture: it has as many rows as a texture may have, and references number 2²⁷ triangles.
+    /// Checks the number of texels of a folded texture. The height of a texture limits its rows, and references can address 2²⁷
+    /// triangles.
     pub fn check_texels(&self, element: &str, texels: usize) -> Result<(), SceneError> {
         let most = folded::WIDTH * self.limits.max_texture_dimension_2d as usize;
         if texels <= most && texels / 3 < LARGEST_FIRST as usize {
@@ -35,7 +36,7 @@ impl Capacity {
         Err(SceneError::of_scene(element, reason))
     }
 
-    /// Checks the bytes of a storage buffer.
+    /// Checks the size of a storage buffer.
     pub fn check_bytes(&self, element: &str, bytes: usize) -> Result<(), SceneError> {
         let limit = self.largest_buffer();
         if bytes as u64 <= limit {

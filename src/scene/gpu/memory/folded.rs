@@ -1,4 +1,4 @@
-//! Rows of texels that are too long for one row of a texture, folded.
+//! Lists of texels folded into the rows of a texture, because they are too long for one row.
 
 use crate::gpu::filled::filled;
 use bytemuck::Pod;
@@ -37,7 +37,7 @@ pub(crate) fn texture(device: &Device, queue: &Queue, label: &str, texels: &[Tex
     device.create_texture_with_data(queue, &descriptor, TextureDataOrder::LayerMajor, bytemuck::cast_slice(&data))
 }
 
-/// Records the replacement of rows of a texture from `first_row` on, in the order of the encoder's commands.
+/// Records the replacement of a texture's rows from `first_row` on, in the order of the encoder's commands.
 pub(crate) fn replace(
     device: &Device,
     encoder: &mut CommandEncoder,

@@ -1,4 +1,4 @@
-//! Buffers and textures, and what a device can hold.
+//! Buffers and textures, and the capacity of a device.
 
 pub(crate) mod buffers;
 pub(crate) mod capacity;

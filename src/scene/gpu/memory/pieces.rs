@@ -1,4 +1,4 @@
-//! Textures that are written piece by piece: images and environments may take hundreds of megabytes.
+//! Textures that are written piece by piece, because images and environments may take hundreds of megabytes.
 
 use wgpu::{
     Device, Extent3d, Origin3d, Queue, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureAspect,
@@ -6,13 +6,13 @@ use wgpu::{
     TextureViewDimension,
 };
 
-/// Bytes of one write, at most.
+/// Most bytes of one write.
 pub(crate) const PIECE: usize = 16 << 20;
 
-/// Bytes of copies that wait to be submitted, at most.
+/// Most bytes of copies that wait for a submission.
 const WAITING: usize = 64 << 20;
 
-/// A texture that shaders fetch texels of, and its view.
+/// A texture for texel fetches, and its view.
 pub(crate) fn texture(
     device: &Device,
     label: &str,
@@ -62,7 +62,7 @@ impl<'a> Writer<'a> {
             TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: Some(height) },
             Extent3d { width: texture.width(), height, depth_or_array_layers: 1 },
         );
-        // wgpu keeps a copy of what is written until the next submission has been executed.
+        // wgpu keeps a copy of all that is written until the next submission has been executed.
         self.waiting += bytes.len();
         if self.waiting >= WAITING {
             self.queue.submit([]);

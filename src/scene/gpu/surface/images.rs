@@ -1,6 +1,6 @@
-//! The texels of all images on the GPU: in a buffer, or in the layers of a texture if they are larger than a storage binding.
+//! The texels of all images on the GPU: in a buffer, or in the layers of a texture if a storage binding cannot hold them.
 //!
-//! A texture would do for all, but on adapters that are the CPU fetches take longer than reads of a buffer.
+//! A texture would suit all scenes, but on an adapter that is the CPU a fetch takes longer than a read of a buffer.
 
 use super::places::{LAYER, ROWS};
 use crate::scene::description::Image;
@@ -15,19 +15,19 @@ const _: () = assert!(LAYER * size_of::<u32>() <= pieces::PIECE);
 #[derive(Debug)]
 pub(crate) enum Images {
     Buffer(Buffer),
-    /// [`Feature::FoldedImages`](crate::plan::Feature::FoldedImages).
+    /// For [`Feature::FoldedImages`](crate::plan::Feature::FoldedImages).
     Texture(Texture, TextureView),
 }
 
 impl Images {
-    /// Uploads the images: into a texture if they are `folded`, else into a buffer.
+    /// Uploads the images into a texture if they are `folded`, else into a buffer.
     pub fn new(device: &Device, queue: &Queue, images: &[Image], folded: bool) -> Self {
         if folded {
             let (texture, view) = texture(device, queue, images);
             return Self::Texture(texture, view);
         }
         let texels: Vec<[u8; 4]> = images.iter().flat_map(|image| &image.texels).copied().collect();
-        // Shaders for all kinds of scenes bind a buffer of a word, where there are no images.
+        // Without images the buffer still has one word, because shaders for all kinds of scenes bind it.
         Self::Buffer(storage(device, "images", &texels, size_of::<u32>()))
     }
 

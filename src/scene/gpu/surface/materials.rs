@@ -25,7 +25,7 @@ pub(crate) struct GpuMaterial {
     specular_color_texture: GpuTexture,
 }
 
-/// The materials, as bright as a pose's emission makes them.
+/// The materials with the emission of a pose.
 pub(crate) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &[Place]) -> Vec<GpuMaterial> {
     let texture = |t| texture_use(t, images);
     materials
@@ -43,7 +43,7 @@ pub(crate) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &
             cutoff: match m.alpha {
                 Alpha::Opaque => 0.0,
                 Alpha::Mask(cutoff) => cutoff,
-                // Not 0, which skips the test.
+                // 0 would skip the test.
                 Alpha::Blend => 0.5,
             },
             specular_edge: m.specular_edge,

@@ -1,17 +1,17 @@
-//! Where the texels of all images lie.
+//! Places of the texels of all images.
 
 use crate::scene::description::{Image, SceneError};
 use crate::scene::gpu::memory::capacity::Capacity;
 use crate::scene::gpu::memory::folded;
 use wgpu::Limits;
 
-/// Rows of a layer, as in shaders/shared/scene.wgsl. A layer is written at once: a layer that is written in part is cleared first.
+/// Rows of a layer, as in shaders/shared/scene.wgsl. A layer is written at once, because wgpu first clears one that is written in part.
 pub(crate) const ROWS: usize = 1024;
 
 /// Texels of a layer.
 pub(crate) const LAYER: usize = folded::WIDTH * ROWS;
 
-/// Where an image lies.
+/// The place of an image.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub first: u32,
@@ -19,10 +19,10 @@ pub(crate) struct Place {
     pub height: u32,
 }
 
-/// Where the images lie, one after the other.
+/// The places of the images, one after the other.
 ///
 /// # Errors
-/// The images have more texels than a texture of the device.
+/// Names the images if they have more texels than a texture of the device can hold.
 pub(crate) fn places(limits: &Limits, images: &[Image]) -> Result<Vec<Place>, SceneError> {
     let count = images.iter().map(|image| image.texels.len() as u64).sum();
     check(count, limits)?;
@@ -42,7 +42,7 @@ pub(crate) fn are_folded(images: &[Image], capacity: &Capacity) -> bool {
 }
 
 fn check(texels: u64, limits: &Limits) -> Result<(), SceneError> {
-    // Texels are numbered with 32 bits.
+    // Texels have 32-bit numbers.
     let most = (u64::from(limits.max_texture_array_layers) * LAYER as u64).min(1 << 32);
     if texels <= most {
         return Ok(());

@@ -16,7 +16,7 @@ pub(crate) struct GpuTexture {
     row_v: [f32; 4],
 }
 
-/// A material's use of an image; all zero where there is none.
+/// A material's use of an image, or all zeros without one.
 pub(crate) fn texture_use(texture: Option<Texture>, places: &[Place]) -> GpuTexture {
     let Some(t) = texture else { return GpuTexture::default() };
     let wrap = |w: Wrap| match w {

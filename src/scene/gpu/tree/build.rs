@@ -7,14 +7,14 @@ use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimi
 use obvhs::{BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
 use std::collections::HashMap;
 
-/// Triangles in a leaf: up to here a test of each is cheaper than another level.
+/// Most triangles in a leaf. Up to here, a test of each is cheaper than another level.
 const LEAF_TRIANGLES: u32 = 2;
 
-/// Triangles with the same box beyond which obvhs is not asked: it merges neighbours pair by pair, and takes quadratic time where
-/// all are equally near.
+/// Most triangles with the same box for which obvhs builds the tree. It merges neighbours pair by pair, which takes quadratic time
+/// if all are equally near.
 const CROWD: usize = 1000;
 
-/// How many triangles share a box, at most.
+/// The largest number of triangles that share a box.
 fn largest_crowd(triangles: &[Triangle]) -> usize {
     let mut crowds = HashMap::<[u32; 6], usize>::new();
     for triangle in triangles {
@@ -25,7 +25,7 @@ fn largest_crowd(triangles: &[Triangle]) -> usize {
     crowds.into_values().max().unwrap_or(0)
 }
 
-/// A tree over triangles. Its nodes refer to each other from `first_node` on, to triangles from `first_row` on.
+/// A tree over triangles. Its nodes have numbers from `first_node` on, its triangles rows from `first_row` on.
 pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32) -> Tree {
     let triangles: Vec<Triangle> = corners
         .iter()
@@ -43,7 +43,7 @@ pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_r
     lay_out(&halve(&triangles, LEAF_TRIANGLES as usize))
 }
 
-/// The steps of obvhs' `build_bvh2`, which takes their time too: browsers have no such clock.
+/// The steps of obvhs' `build_bvh2`. That function also measures their time, with a clock that browsers lack.
 fn build(boxes: &[Aabb], params: BvhBuildParams) -> Bvh2 {
     let BvhBuildParams { ploc_search_distance, sort_precision, search_depth_threshold, .. } = params;
     let order = (0..boxes.len() as u32).collect();
@@ -57,22 +57,22 @@ fn build(boxes: &[Aabb], params: BvhBuildParams) -> Bvh2 {
     bvh
 }
 
-/// A box grown by up to a 4096th of its longest side, by a hash of its number. obvhs merges nearest neighbours; where all are
-/// equally near, as in regular grids, it merges across the grid, and rays meet five times as many boxes.
+/// A box grown by up to a 4096th of its longest side, by a hash of its number. obvhs merges nearest neighbours. In regular grids all
+/// are equally near, so that it would merge across the grid, and rays would meet five times as many boxes.
 fn unlike(Aabb { min, max }: Aabb, number: u32) -> Aabb {
     let most = (max - min).max_element() / 4096.0;
-    // Knuth's multiplicative hash (The Art of Computer Programming 3, 6.4), a number of 24 bits for each side.
+    // A number of 24 bits for each side, by Knuth's multiplicative hash (The Art of Computer Programming 3, 6.4).
     let part =
         |side: u32| (number.wrapping_mul(6).wrapping_add(side).wrapping_mul(2_654_435_761) >> 8) as f32 / 16_777_216.0;
     let parts = |first: u32| Vec3A::new(part(first), part(first + 1), part(first + 2));
     Aabb { min: min - most * parts(0), max: max + most * parts(3) }
 }
 
-/// Levels of a tree over triangles beyond which it is built otherwise: real geometry needs some thirty, and a traversal's stack
-/// holds 64.
+/// Most levels of a tree of obvhs over triangles. A deeper one is replaced by [`halve`]. Real geometry needs some thirty levels, and
+/// a traversal's stack holds 64.
 const DEEPEST: u32 = 48;
 
-/// A tree over the world-space boxes of instances, one per leaf. Its nodes refer to each other from `first_node` on.
+/// A tree over the world-space boxes of instances, one per leaf. Its nodes have numbers from `first_node` on.
 pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]], first_node: u32) -> Tree {
     let boxes: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(b[0].into(), b[1].into())).collect();
     let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
@@ -126,7 +126,7 @@ mod tests {
                 }
             }
         }
-        // Once each; a tree of one leaf has it on both sides of its root.
+        // Each is seen once; a tree of one leaf has it on both sides of its root.
         assert!(seen.iter().all(|&s| s == seen[0] && s <= 2));
     }
 
@@ -157,7 +157,7 @@ mod tests {
         assert!(tree.nodes[0].children.iter().all(|c| c.reference >> COUNT_SHIFT & 15 == 0));
     }
 
-    /// What a ray that meets the root can expect to visit: the sum of all boxes' areas, in parts of the root's.
+    /// The number of boxes that a ray through the root is expected to visit: the sum of their areas over the root's.
     fn cost(tree: &Tree) -> f64 {
         let area = |[low, high]: [[f64; 3]; 2]| {
             let [x, y, z] = [0, 1, 2].map(|axis| high[axis] - low[axis]);

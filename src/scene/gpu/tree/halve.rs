@@ -1,12 +1,12 @@
-//! A tree for triangles of which obvhs makes a bad one.
+//! A tree for triangles that obvhs handles badly.
 
 use glam::Vec3A;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
 use obvhs::triangle::Triangle;
 
-/// A tree that halves its triangles at each level, at the median of their centres along the longest side of these: obvhs makes a
-/// chain of those that coincide, and too deep a tree of some regular grids.
+/// A tree that halves its triangles at each level, at the median of their centres along the longest side of the box around these.
+/// obvhs makes a chain of triangles that coincide, and too deep a tree of some regular grids. A leaf has `most` triangles at most.
 pub(crate) fn halve(triangles: &[Triangle], most: usize) -> Bvh2 {
     let centers: Vec<Vec3A> = triangles.iter().map(|t| t.aabb().center()).collect();
     let mut order: Vec<u32> = (0..triangles.len() as u32).collect();

@@ -9,15 +9,15 @@ pub(crate) struct Tree {
     pub nodes: Vec<Node>,
     /// Primitive of each place in leaf order.
     pub order: Vec<u32>,
-    /// Nodes on the longest way down: what a traversal's stack must hold.
+    /// Nodes on the longest way down, which a traversal's stack must hold.
     pub depth: u32,
     pub bounds: [[f32; 3]; 2],
     pub grid: Quantization,
 }
 
-/// What a tree's leaves refer to.
+/// The primitives of a tree's leaves.
 pub(crate) enum Leaves {
-    /// Runs of triangles from this row on.
+    /// Runs of triangles, whose rows begin here.
     Triangles(u32),
     /// Single instances.
     Instances,
@@ -34,7 +34,7 @@ pub(crate) fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Le
     let grid = Quantization::over(bounds);
     let mut tree = Tree { nodes: Vec::new(), order: Vec::with_capacity(primitives), depth: 1, bounds, grid };
     tree.nodes.push(Node { children: [Child::EMPTY; 2] });
-    // (node of obvhs, where its box belongs: our node and side, depth)
+    // (node of obvhs, our node and side that get its box, depth)
     let mut pending: Vec<(usize, usize, usize, u32)> = if root.is_leaf() {
         vec![(0, 0, 0, 1)]
     } else {
@@ -68,7 +68,7 @@ pub(crate) fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Le
         tree.nodes[parent].children[side] = child;
     }
     if root.is_leaf() {
-        // A ray may get to the other child too. The same again does no harm.
+        // A ray may reach the other child too, and the same leaf again does no harm.
         tree.nodes[0].children[1] = tree.nodes[0].children[0];
     }
     tree

@@ -1,4 +1,4 @@
-//! Trees over triangles and over instances: [`build`] has obvhs build them, [`layout`] lays them out for the shaders.
+//! Trees over triangles and over instances: obvhs builds them ([`build`]), [`layout`] lays them out for the shaders.
 
 mod build;
 mod halve;

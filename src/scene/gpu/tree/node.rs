@@ -4,15 +4,15 @@ use bytemuck::{Pod, Zeroable};
 
 /// A node as the shader reads it: the boxes of its two children (Aila and Laine 2009), each with its reference.
 ///
-/// obvhs' own node is never cast: its size depends on a cargo feature that another crate may switch on.
+/// A node of obvhs is never cast, because its size depends on a cargo feature that another crate may enable.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct Node {
     pub children: [Child; 2],
 }
 
-/// One child of a [`Node`]: its box on the tree's [`Quantization`], two numbers in a word (low x and y; low z and high x; high
-/// y and z), and the number of a node, or [`leaf`].
+/// One child of a [`Node`]: its box on the tree's [`Quantization`](super::Quantization), and its reference, which is the number of a
+/// node or a [`leaf`]. A word of the box holds two numbers: low x and y, low z and high x, high y and z.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(crate) struct Child {
@@ -21,14 +21,14 @@ pub(crate) struct Child {
 }
 
 impl Child {
-    /// A leaf of nothing at the corner of the tree.
+    /// An empty leaf at the corner of the tree.
     pub const EMPTY: Self = Self { bounds: [0; 3], reference: LEAF | 1 };
 }
 
-/// Marks the reference of a leaf, as in shaders/shared/traverse.wgsl.
+/// The mark of a leaf's reference, as in shaders/shared/traverse.wgsl.
 pub(crate) const LEAF: u32 = 0x8000_0000;
 pub(crate) const COUNT_SHIFT: u32 = 27;
-/// Rows, or instances, that a leaf's reference can number.
+/// Number of rows, or of instances, that the reference of a leaf can address.
 pub(crate) const LARGEST_FIRST: u32 = (1 << COUNT_SHIFT) - 2;
 /// Reference to a run of triangles, or to one instance.
 pub(crate) fn leaf(first: u32, count: u32) -> u32 {

@@ -1,10 +1,10 @@
 //! The grid on which the boxes of a tree lie.
 
-/// A grid of 2¹⁶ steps a side over a tree. Boxes on it take half the memory, and a node is two texture fetches instead of four;
-/// they are larger than the true ones by two steps at most (compare Ylitie et al. 2017, who quantise each node).
+/// A grid of 2¹⁶ steps a side over a tree. Boxes on the grid take half the memory, so that a node is two texture fetches instead of
+/// four. They are larger than the true boxes by two steps at most (compare Ylitie et al. 2017, who quantise each node).
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Quantization {
-    /// Where 0 is.
+    /// Position of 0.
     pub base: [f32; 3],
     /// Length of a step.
     pub step: [f32; 3],
@@ -14,7 +14,7 @@ impl Quantization {
     pub fn over([low, high]: [[f32; 3]; 2]) -> Self {
         let mut grid = Self::default();
         for axis in 0..3 {
-            // Steps of a few ulp of the coordinates at least, so that rounding stays within one.
+            // A step is at least a few ulp of the coordinates, so that rounding stays within one step.
             let ulps = 5e-7 * low[axis].abs().max(high[axis].abs());
             grid.step[axis] = ((high[axis] - low[axis]) / 65500.0).max(ulps).max(1e-30);
             grid.base[axis] = low[axis] - 4.0 * grid.step[axis];
@@ -22,7 +22,7 @@ impl Quantization {
         grid
     }
 
-    /// A box's words, rounded outwards and one step more, for the rounding of the shader.
+    /// The words of a box. It is rounded outwards, and by one step more because the shader rounds too.
     pub fn quantize(&self, low: [f32; 3], high: [f32; 3]) -> [u32; 3] {
         let place = |x: f32, axis: usize| (f64::from(x) - f64::from(self.base[axis])) / f64::from(self.step[axis]);
         let down = |axis: usize| (place(low[axis], axis).floor() - 1.0).clamp(0.0, 65535.0) as u32;

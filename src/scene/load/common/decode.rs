@@ -15,7 +15,7 @@ pub(crate) fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
         Format::Ktx2 => return ktx2::decode(name, bytes),
         Format::Image(format) => format,
     };
-    // The decoder fills what is missing with a colour of its own.
+    // The decoder would fill the missing part with a colour of its own.
     if format == ImageFormat::Jpeg && !bytes.windows(2).rev().take(bytes.len() / 2).any(|pair| pair == [0xFF, 0xD9]) {
         return Err("is cut short: the end of the JPEG is not there".into());
     }

@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-/// How a text was written that is neither UTF-8 nor ASCII, so that a warning can say it.
+/// The encoding of a text that is neither UTF-8 nor ASCII, in the words of a warning.
 pub(crate) type Note = Option<&'static str>;
 
-/// Decodes the bytes of a file that is a text: UTF-8, UTF-16 (known by its byte-order mark, or by the zero bytes between ASCII
-/// characters), and Latin-1 wherever bytes are not UTF-8, because exporters write names in the code page of their machine.
+/// Decodes the bytes of a text file: UTF-8, UTF-16 (known by its byte-order mark, or by the zero bytes between ASCII characters), and
+/// Latin-1 wherever bytes are not UTF-8, because exporters write names in the code page of their machine.
 pub(crate) fn decode(bytes: &[u8]) -> (Cow<'_, str>, Note) {
     const NOTE: &str = "is UTF-16, where ASCII or UTF-8 belongs; it is read as UTF-16";
     let little: fn([u8; 2]) -> u16 = u16::from_le_bytes;
@@ -17,7 +17,7 @@ pub(crate) fn decode(bytes: &[u8]) -> (Cow<'_, str>, Note) {
         [0, 1..=255, 0, 1..=255, ..] => (bytes, u16::from_be_bytes as fn([u8; 2]) -> u16),
         _ => {
             let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-            // Zeros pad files, and end strings of C.
+            // Zeros pad files and end C strings.
             let end = bytes.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
             return (without_zeros(one_byte(&bytes[..end])), None);
         }
@@ -28,7 +28,7 @@ pub(crate) fn decode(bytes: &[u8]) -> (Cow<'_, str>, Note) {
 }
 
 fn without_zeros(text: Cow<'_, str>) -> Cow<'_, str> {
-    // A binary file has many, and is to be recognised as one.
+    // A binary file has many zeros, and must still be recognised as binary.
     let zeros = text.bytes().filter(|&byte| byte == 0).count();
     if zeros == 0 || zeros * 20 > text.len() { text } else { Cow::Owned(text.replace('\0', "")) }
 }

@@ -1,4 +1,4 @@
-//! Where files come from: the disk, or memory.
+//! The source of files: the disk, or memory.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -7,21 +7,21 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::image_io::read_file;
 
-/// A scene may lie in a folder with all that a person has.
+/// Most entries that are listed, because a scene may lie in a folder with all the files of a person.
 const MAX_LISTED: usize = 20_000;
-/// How deep files are looked for.
+/// Most levels of folders in which files are looked for.
 const MAX_DEPTH: usize = 8;
 
-/// All files that there are.
+/// All files that an importer may read.
 #[derive(Clone, Copy)]
 pub(crate) enum Files<'a> {
     Disk,
-    /// By their paths.
+    /// Files by their paths.
     Memory(&'a BTreeMap<PathBuf, Vec<u8>>),
 }
 
 impl<'a> Files<'a> {
-    /// The one way to write the path of a folder. The error is a reason.
+    /// The canonical path of a folder. The error is a reason.
     pub fn folder(self, path: &Path) -> Result<PathBuf, String> {
         match self {
             Self::Disk => canonical(path),
@@ -29,10 +29,10 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The same of a file that there is; links are followed.
+    /// The canonical path of an existing file. Links are followed. The error is a reason.
     ///
-    /// Browsers do not tell in which folder a dropped file lay: in memory, where there is none of that path, the file of
-    /// the same name in `root` stands for it.
+    /// Browsers do not tell the folder of a dropped file. In memory, if no file has that path, the file of the same name in `root`
+    /// stands for it.
     pub fn file(self, root: &Path, name: &str) -> Result<PathBuf, String> {
         let path = root.join(name);
         let Self::Memory(files) = self else { return canonical(&path) };
@@ -45,8 +45,8 @@ impl<'a> Files<'a> {
             .ok_or_else(|| "is not among the files that were given".into())
     }
 
-    /// The files in a folder and below, sorted within each folder, the nearest first: at most [`MAX_LISTED`] entries, down to
-    /// [`MAX_DEPTH`] folders. Links are followed to files in the folder, and nowhere else.
+    /// The files in a folder and below, nearest folders first, sorted within each folder: at most [`MAX_LISTED`] entries, down to
+    /// [`MAX_DEPTH`] folders. A link is followed only to a file in the folder.
     pub fn list(self, root: &Path) -> Vec<PathBuf> {
         match self {
             Self::Disk => list(root),
@@ -67,11 +67,11 @@ impl<'a> Files<'a> {
         }
     }
 
-    /// The first bytes of a file, as many as there are: enough to recognise it by.
+    /// The first bytes of a file, enough to recognise its format.
     #[cfg(feature = "gltf")]
     pub fn start(self, path: &Path) -> Cow<'a, [u8]> {
         use std::{fs::File, io::Read as _};
-        /// Of the formats of images, none has a longer signature.
+        /// No image format has a longer signature.
         const START: usize = 64;
         match self {
             Self::Disk => {

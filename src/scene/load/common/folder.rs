@@ -1,5 +1,5 @@
-//! Files next to a scene file. A scene file may come from anywhere, so that what it names is not to be trusted: it
-//! may only name files in its own folder.
+//! Files next to a scene file. A scene file may come from anywhere, so its paths are not to be trusted: they may only lead to files in
+//! its own folder.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -12,7 +12,7 @@ use super::files::Files;
 pub(crate) struct Folder<'a> {
     files: Files<'a>,
     root: PathBuf,
-    /// All files in the folder by their names in lower case, listed when one is not where it should be.
+    /// All files in the folder by their names in lower case, listed once a file is missing in its place.
     listing: OnceCell<HashMap<String, Vec<PathBuf>>>,
 }
 
@@ -20,7 +20,7 @@ pub(crate) struct Folder<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct Located {
     pub path: PathBuf,
-    /// What was found instead, where the file is not exactly the one that was named: for a warning.
+    /// The words of a warning, if another file than the named one was found.
     pub note: Option<String>,
 }
 
@@ -36,7 +36,7 @@ impl<'a> Folder<'a> {
         self.files.read(path)
     }
 
-    /// The first bytes of a file that was located, as many as there are: enough to recognise it by.
+    /// The first bytes of a file that was located, enough to recognise its format.
     #[cfg(feature = "gltf")]
     pub fn start(&self, path: &Path) -> Cow<'a, [u8]> {
         self.files.start(path)
@@ -46,12 +46,12 @@ impl<'a> Folder<'a> {
     #[cfg(feature = "gltf")]
     pub fn locate_uri(&self, uri: &str) -> Result<Located, String> {
         let text = |bytes: Vec<u8>| {
-            // Names in the code page of a machine are Latin-1 as far as anything is known of them.
+            // Names in an unknown code page are taken for Latin-1.
             let latin =
                 |error: std::string::FromUtf8Error| error.into_bytes().iter().map(|&byte| char::from(byte)).collect();
             String::from_utf8(bytes).unwrap_or_else(latin)
         };
-        // Many writers do not encode their names at all. A query or a fragment is for servers.
+        // Many writers do not percent-encode names at all. A query or a fragment is for servers.
         let plain = uri.split(['?', '#']).next().unwrap_or(uri);
         let names = [uri, plain].map(|name| percent_decode(name).map_or_else(|| name.to_owned(), text));
         let exact = |name: &str| self.locate(name).ok().filter(|located| located.note.is_none());
@@ -63,9 +63,9 @@ impl<'a> Folder<'a> {
 
     /// The file that a relative path stands for. The error is a reason.
     ///
-    /// Where there is none, the name may be a path of another machine: with backslashes, in quotes, absolute, out of the
-    /// folder, or in the wrong case. The longest end of it that is a file in the folder stands for it, beside the scene
-    /// file first, then below. Nothing outside the folder is looked at, and network addresses are not searched for.
+    /// If there is no such file, the name may be a path of another machine: with backslashes, in quotes, absolute, out of the folder, or
+    /// in the wrong case. Then the file in the folder whose path shares the longest end with it stands for it, a file beside the scene
+    /// file before one below. Files outside the folder and network addresses are ignored.
     pub fn locate(&self, name: &str) -> Result<Located, String> {
         let reason = match self.exact(name) {
             Ok(path) => return Ok(Located { path, note: None }),
@@ -73,7 +73,7 @@ impl<'a> Folder<'a> {
         };
         let path = self.find(&parts(name)).ok_or_else(|| reason.clone())?;
         let found = path.strip_prefix(&self.root).unwrap_or(&path).display().to_string().replace('\\', "/");
-        // "… is not read" is no longer so.
+        // A replacement is read, so "is not read" would be wrong.
         let reason = reason.strip_suffix(", and is not read").unwrap_or(&reason);
         Ok(Located { note: Some(format!("{reason}; \"{found}\" is read instead")), path })
     }
@@ -93,12 +93,12 @@ impl<'a> Folder<'a> {
             };
         }
         let path = self.files.file(&self.root, name).map_err(|reason| format!("\"{name}\" {reason}"))?;
-        // Links were followed by now, and they may lead anywhere.
+        // Links are resolved by now, and may lead anywhere.
         if path.starts_with(&self.root) { Ok(path) } else { Err(outside()) }
     }
 
-    /// The file whose path ends as `parts` does, in as many of them as possible: beside the scene file or below, in the same
-    /// case or another.
+    /// The file whose path shares the longest end with `parts`, beside the scene file or below. A file in the same case comes before one
+    /// in another.
     fn find(&self, parts: &[String]) -> Option<PathBuf> {
         let listing = self.listing.get_or_init(|| by_name(self.files.list(&self.root)));
         let candidates = listing.get(&parts.last()?.to_lowercase())?;
@@ -106,11 +106,11 @@ impl<'a> Folder<'a> {
             let within: Vec<_> = path.strip_prefix(&self.root).unwrap_or(path).components().collect();
             let own = within.iter().rev().map(|component| component.as_os_str().to_str().unwrap_or(""));
             let alike = std::iter::zip(own, parts.iter().rev()).take_while(|(own, part)| same(own, part)).count();
-            // Of those that end alike, the one that ends there, then the one that lies least deep.
+            // Among equal ends, a path that has no more parts comes first, then the one with the fewest folders.
             (alike, alike == within.len(), usize::MAX - within.len())
         };
         let best = |same: fn(&str, &str) -> bool| {
-            // The candidates are sorted; of equals, the first is taken.
+            // The candidates are sorted; among equals, the first is taken.
             let rated = candidates.iter().rev().map(|path| (rating(path, same), path));
             rated.filter(|((alike, ..), _)| *alike > 0).max_by_key(|(rating, _)| *rating)
         };
@@ -128,14 +128,14 @@ fn by_name(files: Vec<PathBuf>) -> HashMap<String, Vec<PathBuf>> {
     names
 }
 
-/// The folders and the name of a path of any machine. None for a network address.
+/// The folders and the name of a path of any machine. Empty for a network address.
 fn parts(name: &str) -> Vec<String> {
     let name = name.trim().trim_matches(['"', '\'']);
     let (local, decoded) = match name.split_once(':') {
         Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => {
             (rest, percent_decode(rest).and_then(|bytes| String::from_utf8(bytes).ok()))
         }
-        // A drive of Windows.
+        // A Windows drive.
         Some((drive, rest)) if drive.len() == 1 => (rest, None),
         Some(_) if has_scheme(name) => return Vec::new(),
         _ => (name, None),
@@ -148,7 +148,7 @@ fn parts(name: &str) -> Vec<String> {
     parts.map(str::to_owned).collect()
 }
 
-/// Whether a URI starts with a scheme (`https:`, `file:`) or a Windows drive.
+/// True if a URI starts with a scheme (`https:`, `file:`) or a Windows drive.
 fn has_scheme(uri: &str) -> bool {
     uri.split_once(':').is_some_and(|(scheme, _)| {
         scheme.starts_with(|c: char| c.is_ascii_alphabetic())
@@ -156,7 +156,7 @@ fn has_scheme(uri: &str) -> bool {
     })
 }
 
-/// Replaces `%20` and the like. `None` for an incomplete escape.
+/// Decodes escapes such as `%20`. `None` for an incomplete escape.
 pub(crate) fn percent_decode(uri: &str) -> Option<Vec<u8>> {
     let mut decoded = Vec::with_capacity(uri.len());
     let mut bytes = uri.bytes();

@@ -42,7 +42,7 @@ pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
     Ok(Image { name: name.into(), width, height, texels })
 }
 
-/// Puts channels where the file says that they are to be seen: `rgba`, `rrr1`.
+/// Reorders channels as the file says: `rgba`, `rrr1`.
 fn swizzle(texels: &mut [[u8; 4]], places: &[u8]) {
     let Some(places) = places.first_chunk::<4>() else { return };
     for texel in texels {
@@ -57,7 +57,7 @@ fn swizzle(texels: &mut [[u8; 4]], places: &[u8]) {
     }
 }
 
-/// Turns rows that go up (`ru`) and columns that go left (`ld`).
+/// Reverses rows that go up (`ru`) and columns that go left (`ld`).
 fn turn(texels: &mut [[u8; 4]], width: usize, orientation: &[u8]) {
     if orientation.first() == Some(&b'l') {
         texels.chunks_exact_mut(width).for_each(<[_]>::reverse);
@@ -71,7 +71,7 @@ fn turn(texels: &mut [[u8; 4]], width: usize, orientation: &[u8]) {
     }
 }
 
-/// Which channel (0 to 3 for red to alpha) each byte of a texel is.
+/// The channel of each byte of a texel, 0 to 3 for red to alpha.
 fn channels(format: Format) -> Option<&'static [usize]> {
     Some(match format {
         Format::R8_UNORM | Format::R8_SRGB => &[0],

@@ -1,4 +1,4 @@
-//! What all importers share: files, their texts and images, and the report of what was found. It knows no format of scenes.
+//! The vocabulary of all importers: files, their texts and images, and the report of what was found. It knows no scene format.
 
 #[cfg(any(feature = "gltf", feature = "obj"))]
 pub(super) mod decode;

@@ -1,9 +1,9 @@
-//! What a file is that is not what its name says.
+//! The true format of a file that is not what its name says.
 
-/// What bytes are, if they are a known kind of file other than the text that a scene or material library should be. The
-/// answer follows "the file": `is a Git LFS pointer …`.
+/// The kind of a file that is not the text that a scene or material library should be, if the kind is known. The answer continues "the
+/// file": `is a Git LFS pointer …`.
 ///
-/// A glTF importer asks only when it could not make sense of the bytes, because GLB and JSON are among the kinds.
+/// A glTF importer asks only after it failed to read the bytes, because GLB and JSON are among the kinds.
 pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     let start = bytes.get(..bytes.len().min(4096)).unwrap_or(bytes);
     let signature = SIGNATURES.iter().find(|(signature, _)| start.starts_with(signature));
@@ -35,7 +35,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
     None
 }
 
-/// First bytes of binary files, and of those texts that start with a fixed word.
+/// First bytes of binary files, and of texts that start with a fixed word.
 const SIGNATURES: [(&[u8], &str); 16] = [
     (b"glTF", "is a binary glTF file, whose name ends in .glb"),
     (b"Kaydara FBX Binary", "is an FBX file"),
@@ -55,7 +55,7 @@ const SIGNATURES: [(&[u8], &str); 16] = [
     (b"%PDF", "is a PDF document"),
 ];
 
-/// Whether a text is none: it is full of control characters of ASCII, which all code pages have.
+/// True if a text is none, because it is full of ASCII control characters. All code pages have these.
 #[cfg(feature = "obj")]
 pub(crate) fn is_binary(text: &str) -> bool {
     let control = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\n' | '\r' | '\u{B}' | '\u{C}' | '\u{1A}');

@@ -1,23 +1,23 @@
-//! What an importer has to say about one file.
+//! The warnings and errors of an importer about one file.
 
 use std::collections::HashSet;
 use std::path::Path;
 
 use crate::scene::description::{Scene, SceneError, Warning};
 
-/// A scene and what could not be honoured of its file.
+/// A scene, and warnings about the parts of its file that could not be honoured.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The scene; it passes [`Scene::validate`].
     pub scene: Scene,
-    /// Everything that was left out or replaced, in the order in which it was met. A reason that many elements share is
-    /// given once, for the first of them.
+    /// Everything that was left out or replaced, in the order of reading. A reason that many elements share is given once, for the first
+    /// of them.
     pub warnings: Vec<Warning>,
-    /// The same for each element, 65 536 at most: what a listing of a file shows beside its elements.
+    /// A warning for each element, 65 536 at most, for listings that show them beside the elements of the file.
     pub details: Vec<Warning>,
 }
 
-/// What is wrong with an element. [`Report::error`] adds the file.
+/// A defect of an element. [`Report::error`] adds the file.
 #[derive(Clone, Debug)]
 pub(crate) struct Fault {
     pub element: String,
@@ -30,21 +30,21 @@ impl Fault {
     }
 }
 
-/// Most warnings that are kept in detail: a file may have a fault for each of its elements.
+/// Most warnings that are kept in detail, because every element of a file may have a fault.
 const DETAILS: usize = 1 << 16;
 
 /// Collects the warnings about a file and completes its errors.
 ///
-/// A file is refused only where nothing of it can be drawn. An element that is broken costs itself and one warning, which
-/// names the element and its replacement.
+/// A file is refused only if nothing of it can be drawn. A broken element is lost alone, with one warning that names the element and its
+/// replacement.
 pub(crate) struct Report {
     file: String,
     warnings: Vec<Warning>,
-    /// Every warning, whether another one has the same reason or not.
+    /// Every warning, including those with a reason that another one has too.
     details: Vec<Warning>,
     said: HashSet<String>,
     removed: HashSet<String>,
-    /// The first part of the model that was lost: the reason to refuse a file of which nothing else can be drawn.
+    /// The first part of the model that was lost. It is the reason to refuse a file of which nothing else can be drawn.
     lost: Option<Fault>,
 }
 
@@ -60,7 +60,7 @@ impl Report {
         }
     }
 
-    /// Warns, unless the same was said of the same element, which may be read in several shapes, or the element was removed.
+    /// Warns, unless the element was removed or has the same warning already, because an element may be read in several shapes.
     pub fn warn(&mut self, element: impl Into<String>, reason: impl Into<String>) {
         let warning = Warning { element: element.into(), reason: reason.into() };
         let new = self.said.insert(format!("{}: {}", warning.element, warning.reason));
@@ -76,7 +76,7 @@ impl Report {
         }
     }
 
-    /// Warns unless the same reason was given before: for what a file does in many places, the first is named.
+    /// Warns, unless the same reason was given before. Of a defect in many places, the first place is named.
     pub fn warn_once(&mut self, element: impl Into<String>, reason: impl Into<String>) {
         let reason = reason.into();
         if self.said.insert(reason.clone()) {
@@ -86,14 +86,14 @@ impl Report {
         }
     }
 
-    /// Warns that an element is read as if it were not there. Its absence needs no warning of its own.
+    /// Warns that an element is read as if it were absent. Its absence needs no warning of its own.
     #[cfg(feature = "gltf")]
     pub fn remove(&mut self, element: &str, reason: &str) {
         self.warn(element, format!("{reason}; it is read as if it were not there"));
         self.removed.insert(element.to_owned());
     }
 
-    /// Whether an element, or one that holds it, was removed.
+    /// True if an element, or one that holds it, was removed.
     pub fn is_removed(&self, element: &str) -> bool {
         let ends = element.match_indices(['.', '[']).map(|(end, _)| end).chain([element.len()]);
         !self.removed.is_empty() && ends.into_iter().any(|end| self.removed.contains(&element[..end]))
@@ -121,7 +121,7 @@ impl Report {
         self.replace(fault, "it is not drawn");
     }
 
-    /// `value` brought into 0…1, with a warning where that changes it visibly.
+    /// Clamps `value` to 0…1, with a warning if that changes it visibly.
     pub fn clamp_unit(&mut self, value: f32, element: impl FnOnce() -> String) -> f32 {
         let clamped = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
         // Exporters that convert between colour spaces overshoot by rounding errors.
@@ -132,7 +132,7 @@ impl Report {
         clamped
     }
 
-    /// `value` without negative or infinite parts, with a warning where that changes it.
+    /// Clamps `value` to finite numbers of at least 0, with a warning if that changes it.
     pub fn clamp_radiance(&mut self, value: [f32; 3], element: impl FnOnce() -> String) -> [f32; 3] {
         let clamped = value.map(|x| if x.is_nan() { 0.0 } else { x.clamp(0.0, f32::MAX) });
         if clamped != value {
@@ -145,7 +145,7 @@ impl Report {
         SceneError { file: self.file.clone(), element: fault.element, reason: fault.reason }
     }
 
-    /// Hands the scene out once it keeps all the rules of [`Scene::validate`].
+    /// Returns the scene if it keeps all rules of [`Scene::validate`].
     pub fn finish(mut self, scene: Scene) -> Result<Loaded, SceneError> {
         scene.validate().map_err(|error| self.error(Fault::new(error.element, error.reason)))?;
         if scene.triangle_count() == 0 {

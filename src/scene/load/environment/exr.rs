@@ -18,7 +18,7 @@ pub(super) fn read(path: &Path) -> Result<Picture, String> {
     let mut colors = colors(&channels, primaries.unwrap_or(REC_709), &mut warnings)?;
     drop(channels);
     if let Some(primaries) = primaries.filter(|&primaries| differ(primaries)) {
-        // A matrix makes one channel that is infinite or no number three of them.
+        // A matrix would spread one channel that is infinite or NaN to all three.
         warnings.extend(clean(&mut colors, false));
         match to_rec_709(primaries) {
             Some(matrix) => colors.iter_mut().for_each(|color| *color = matrix(*color)),
@@ -27,7 +27,7 @@ pub(super) fn read(path: &Path) -> Result<Picture, String> {
             }
         }
     }
-    // The display window is the picture. Directions outside of the data window are black.
+    // The display window is the picture. Directions outside the data window are black.
     let (data, display) = (file.data_window(), file.display_window());
     if display.size.iter().any(|&side| side as usize > MAX_SIDE) {
         let [width, height] = display.size;
@@ -62,7 +62,7 @@ fn colors(channels: &Channels, primaries: [[f64; 2]; 4], warnings: &mut Vec<Stri
     if let Some(y) = find("Y") {
         return Ok(zip([y; 3]));
     }
-    // The layer that looks most like the picture, in names of any case.
+    // The layer that is most likely the picture, by names of any case.
     let lower = |suffix: char, name: &str| name.to_lowercase().strip_suffix(suffix).map(str::to_owned);
     let mut layers: Vec<(&str, String)> = channels
         .channels

@@ -16,18 +16,19 @@ use crate::scene::load::common::srgb::linear_from_srgb;
 use picture::{Picture, clean, odd_shape};
 
 impl Environment {
-    /// Reads an equirectangular image. Its first bytes decide how, whatever its name is:
+    /// Reads an equirectangular image. Its first bytes decide the format, whatever its name is:
     ///
-    /// * Radiance HDR (RGBE or XYZE, signed or not, in any of the eight orientations, with `EXPOSURE`, `COLORCORR` and `PRIMARIES`) and
-    ///   EXR (colours or luminance and chroma, chromaticities converted to Rec. 709, the data window placed in the display window) hold
-    ///   linear radiance.
-    /// * PNG, JPEG, TGA, BMP, TIFF and WebP are taken to be sRGB with 1 as the largest radiance, floating-point TIFF to be linear.
+    /// * Radiance HDR holds linear radiance: RGBE or XYZE, signed or not, in any of the eight orientations, with `EXPOSURE`, `COLORCORR`
+    ///   and `PRIMARIES`.
+    /// * EXR holds linear radiance: colours, or luminance and chroma. Chromaticities are converted to Rec. 709, and the data window is
+    ///   placed in the display window.
+    /// * PNG, JPEG, TGA, BMP, TIFF and WebP are taken for sRGB with 1 as the largest radiance, floating-point TIFF for linear.
     ///
-    /// Negative channels and NaN become 0, infinity 65504, each with a warning that tells how many they are.
+    /// Negative channels and NaN become 0, infinity becomes 65504, each with a warning that gives their number.
     ///
     /// # Errors
     ///
-    /// A file that cannot be read or decoded, an image of more than 16384 texels a side, or an EXR file without colours.
+    /// Names the file if it cannot be read or decoded, has more than 16384 texels a side, or is an EXR file without colours.
     pub fn load(path: impl AsRef<Path>) -> Result<(Self, Vec<Warning>), SceneError> {
         let path = path.as_ref();
         let error =

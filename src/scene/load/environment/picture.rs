@@ -1,15 +1,15 @@
-//! Pictures of the surroundings, and what is said of their texels.
+//! Pictures of the surroundings, and warnings about their texels.
 
 use crate::scene::description::Environment;
 
-/// Radiance of a texel that is infinite: the largest 16-bit float, which is what most files of infinite suns were meant to hold.
+/// The radiance that replaces infinity: the largest 16-bit float, which most files with infinite suns were meant to hold.
 const BRIGHTEST: f32 = 65504.0;
 
-/// A picture, and what could not be honoured of it.
+/// A picture, and warnings about parts that could not be honoured.
 pub(super) type Picture = (Environment, Vec<String>);
 
-/// Makes all radiances finite and, unless they are to be converted first, at least 0, channel by channel. Returns what there is
-/// to say about it.
+/// Makes all radiances finite, channel by channel, and in the `last` pass also at least 0. Radiances that are still to be converted
+/// may be negative. Returns the warnings.
 pub(super) fn clean(radiance: &mut [[f32; 3]], last: bool) -> Vec<String> {
     let mut changed = [0; 3];
     for channel in radiance.as_flattened_mut() {
@@ -27,9 +27,9 @@ pub(super) fn clean(radiance: &mut [[f32; 3]], last: bool) -> Vec<String> {
     said.map(|(count, kind)| format!("{count} channels of texels are {kind}")).collect()
 }
 
-/// What to say of a picture that has the shape of another kind of environment map.
+/// A warning about a picture with the shape of another kind of environment map.
 pub(super) fn odd_shape(width: u32, height: u32) -> Option<String> {
-    /// Smaller pictures are made by hand.
+    /// Smaller pictures are made by hand, in any shape.
     const SMALLEST: u32 = 16;
     let kind = match (width, height) {
         _ if width.min(height) < SMALLEST => return None,

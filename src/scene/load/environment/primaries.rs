@@ -1,15 +1,15 @@
-//! Colours of other primaries to those of Rec. 709.
+//! Conversion of colours with other primaries to Rec. 709.
 
 use glam::{DMat3, DVec3};
 
 /// Red, green, blue and white (D65) in the chromaticity diagram (ITU-R BT.709).
 pub(super) const REC_709: [[f64; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], [0.3127, 0.3290]];
 
-/// The Bradford cone responses (Lam 1985), in which whites are adapted to each other.
+/// The Bradford cone responses (Lam 1985), in which one white is adapted to another.
 const BRADFORD: DMat3 =
     DMat3::from_cols_array(&[0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296]);
 
-/// Whether primaries are visibly others than those of Rec. 709.
+/// True if primaries differ visibly from those of Rec. 709.
 pub(super) fn differ(primaries: [[f64; 2]; 4]) -> bool {
     primaries.as_flattened().iter().zip(REC_709.as_flattened()).any(|(a, b)| (a - b).abs() > 1e-3)
 }
@@ -19,8 +19,8 @@ fn tristimulus([x, y]: [f64; 2]) -> DVec3 {
     DVec3::new(x / y, 1.0, (1.0 - x - y) / y)
 }
 
-/// From colours of these primaries to X, Y and Z: the columns are the primaries, so bright that their sum is white of luminance 1
-/// (SMPTE RP 177). `None` where they span no colours.
+/// The map from colours of these primaries to X, Y and Z. Its columns are the primaries, scaled so that their sum is white of
+/// luminance 1 (SMPTE RP 177). `None` if they span no colours.
 fn to_xyz([r, g, b, white]: [[f64; 2]; 4]) -> Option<DMat3> {
     let columns = [r, g, b].map(|[x, y]| DVec3::new(x, y, 1.0 - x - y));
     let primaries = DMat3::from_cols(columns[0], columns[1], columns[2]);
@@ -32,12 +32,12 @@ fn to_xyz([r, g, b, white]: [[f64; 2]; 4]) -> Option<DMat3> {
     matrix.is_finite().then_some(matrix)
 }
 
-/// The map to Rec. 709, white to white. `None` where the primaries span no colours.
+/// The map to Rec. 709, white to white. `None` if the primaries span no colours.
 pub(super) fn to_rec_709(primaries: [[f64; 2]; 4]) -> Option<impl Fn([f32; 3]) -> [f32; 3]> {
     Some(applied(from_xyz(primaries[3])? * to_xyz(primaries)?))
 }
 
-/// The map from X, Y and Z, whose white is this one, to Rec. 709.
+/// The map from X, Y and Z with this white to Rec. 709.
 pub(super) fn xyz_to_rec_709(white: [f64; 2]) -> Option<impl Fn([f32; 3]) -> [f32; 3]> {
     Some(applied(from_xyz(white)?))
 }
@@ -54,7 +54,7 @@ fn applied(matrix: DMat3) -> impl Fn([f32; 3]) -> [f32; 3] {
     move |color| (matrix * glam::Vec3::from(color)).to_array()
 }
 
-/// What each primary adds to the luminance of white.
+/// The share of each primary in the luminance of white.
 pub(super) fn luminance_weights(primaries: [[f64; 2]; 4]) -> [f32; 3] {
     to_xyz(primaries).or_else(|| to_xyz(REC_709)).map_or([1.0 / 3.0; 3], |matrix| matrix.row(1).as_vec3().to_array())
 }

@@ -1,7 +1,7 @@
 //! Environment maps in Radiance's picture format.
 //!
-//! The `image` crate decodes the scanlines. It reads one orientation and one signature, and no variable of the header, so that it is
-//! given a header of its own making; the file's header is honoured here (Ward, "The RADIANCE Picture File Format").
+//! The `image` crate decodes the scanlines. It reads one orientation, one signature and no variable of the header. It therefore gets a
+//! header in that form, and the file's own header is honoured here (Ward, "The RADIANCE Picture File Format").
 
 use std::io::Cursor;
 
@@ -12,27 +12,27 @@ use super::primaries::{differ, to_rec_709, xyz_to_rec_709};
 use crate::image_io::limits;
 use crate::scene::description::Environment;
 
-/// Longest header that is looked through.
+/// Longest header that is read.
 const LONGEST: usize = 1 << 20;
 
-/// What a header says.
+/// The content of a header.
 struct Header {
     /// Scanlines, and texels of each.
     size: [usize; 2],
-    /// Whether scanlines are columns.
+    /// True if scanlines are columns.
     columns: bool,
-    /// Whether scanlines, and texels in them, come from the other end than down and to the right.
+    /// True if scanlines, and texels in them, run up and to the left instead of down and to the right.
     reversed: [bool; 2],
-    /// By which texels were multiplied.
+    /// The factors by which texels were multiplied.
     exposure: [f32; 3],
-    /// Texels are X, Y and Z.
+    /// True if texels are X, Y and Z.
     xyz: bool,
     primaries: Option<[[f64; 2]; 4]>,
-    /// Where the scanlines begin.
+    /// Offset of the scanlines in the file.
     end: usize,
 }
 
-/// Whether a file begins like a picture of Radiance: with its signature, or, as some writers leave that out, with a header of text.
+/// True if a file begins like a Radiance picture: with the signature or, because some writers omit that, with a text header.
 pub(super) fn is_radiance(bytes: &[u8]) -> bool {
     bytes.starts_with(b"#?") || parse(bytes).is_ok()
 }
@@ -56,7 +56,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Picture, String> {
         let at = if header.columns { texel_place * width + line } else { line * width + texel_place };
         radiance[at] = [0, 1, 2].map(|channel| texel.0[channel] / header.exposure[channel]);
     }
-    /// The white of Radiance, to which X, Y and Z are relative: that of equal energy.
+    /// The white of Radiance, to which X, Y and Z are relative, has equal energy.
     const EQUAL_ENERGY: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];
     if header.xyz {
         if let Some(map) = xyz_to_rec_709(EQUAL_ENERGY) {
@@ -86,7 +86,7 @@ fn parse(bytes: &[u8]) -> Result<Header, String> {
     for line in start.split_inclusive(|&byte| byte == b'\n') {
         header.end += line.len();
         let length = line.len();
-        // Names of people are in any encoding.
+        // Names of people may be in any encoding.
         let line = String::from_utf8_lossy(line);
         let line = line.trim_end_matches(['\r', '\n']);
         if !variables {
@@ -114,7 +114,7 @@ impl Header {
                 "32-bit_rle_xyze" => self.xyz = true,
                 other => return Err(format!("is a Radiance picture of the format {other}, which is not read")),
             },
-            // Several of a kind multiply.
+            // Several of one kind multiply.
             ("EXPOSURE", &[factor]) if factor > 0.0 => {
                 self.exposure = self.exposure.map(|exposure| exposure * factor as f32);
             }
@@ -131,7 +131,7 @@ impl Header {
         Ok(())
     }
 
-    /// Two signed axes, each with its length: the slower first. −Y is down, +X to the right.
+    /// Two signed axes, each with its length, the slower axis first. −Y is down, +X is to the right.
     fn resolution(&mut self, line: &str) -> Option<()> {
         let words: Vec<&str> = line.split_whitespace().collect();
         let &[slow, lines, fast, length] = words.as_slice() else { return None };

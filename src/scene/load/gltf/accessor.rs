@@ -1,5 +1,5 @@
-//! Accessors: typed views of buffers. Elements are decoded one by one, when they are asked for, so that a file that
-//! announces more than it holds cannot make us allocate for it.
+//! Accessors: typed views of buffers. Elements are decoded one by one on demand, so that a file that announces more than it holds
+//! cannot cause a large allocation.
 
 use gltf::json::accessor::{Accessor, ComponentType, Type, sparse};
 use gltf::json::validation::Checked;
@@ -8,7 +8,7 @@ use gltf::json::{Index, buffer};
 use super::source::Source;
 use crate::scene::load::common::report::Fault;
 
-/// Most elements of an accessor that has no data of its own, and so costs a file nothing.
+/// Most elements of an accessor without data of its own, which costs a file nothing.
 const MAX_ZEROS: u64 = 1 << 24;
 
 /// The component types of indices.
@@ -18,21 +18,21 @@ pub(super) const INDEX: &[ComponentType] = &[ComponentType::U8, ComponentType::U
 pub(super) const REAL: &[ComponentType] =
     &[ComponentType::F32, ComponentType::I8, ComponentType::U8, ComponentType::I16, ComponentType::U16];
 
-/// The elements of an accessor, whose place in the file has been checked.
+/// The elements of an accessor. Their place in the file has been checked.
 pub(super) struct Elements<'a> {
     shape: Type,
     count: usize,
     component: ComponentType,
     normalized: bool,
-    /// All elements; `None` are zeros.
+    /// All elements. `None` stands for zeros.
     dense: Option<Strided<'a>>,
-    /// Elements that replace those above: by increasing index, each with its place among the values.
+    /// Elements that replace those of `base`, by increasing index, each with its place among the values.
     sparse: Option<(Vec<(u32, usize)>, Strided<'a>)>,
 }
 
 impl<'a> Elements<'a> {
-    /// Opens an accessor that must hold elements of `shape` made of one of `components`. `user` is the element that
-    /// refers to it, and to which errors are attributed.
+    /// Opens an accessor that must hold elements of `shape` made of one of `components`. Errors are attributed to `user`, the element that
+    /// refers to it.
     pub fn open(
         source: &'a Source<'a>,
         index: Index<Accessor>,
@@ -74,27 +74,27 @@ impl<'a> Elements<'a> {
             }
             None => None,
         };
-        // Both cases above have bounded the count by the size of the file or by a constant.
+        // Both cases above bound the count, by the size of the file or by a constant.
         let count = usize::try_from(count).map_err(|_| fault(format!("{count} elements are too many")))?;
         Ok(Self { shape, count, component, normalized: accessor.normalized, dense, sparse })
     }
 
-    /// Whether the elements have this shape.
+    /// True if the elements have this shape.
     pub fn has_shape(&self, shape: Type) -> bool {
         self.shape == shape
     }
 
-    /// Whether integers stand for themselves and not for 0…1 or −1…1.
+    /// True if integers stand for themselves, false if they stand for 0…1 or −1…1.
     pub fn is_whole(&self) -> bool {
         !self.normalized && self.component != ComponentType::F32
     }
 
-    /// An element as numbers, where integers are normalised whatever the file says.
+    /// An element as numbers, with integers normalised whatever the file says.
     pub fn normalized<const N: usize>(&self, index: usize) -> [f32; N] {
         self.numbers(index, true)
     }
 
-    /// How many elements there are.
+    /// Number of elements.
     pub fn len(&self) -> usize {
         self.count
     }
@@ -148,7 +148,7 @@ struct Strided<'a> {
     size: usize,
 }
 
-/// Why elements cannot be opened: a fault of the buffer view, or a reason to attribute to the accessor.
+/// An error in opening elements: a fault of the buffer view, or a reason to attribute to the accessor.
 enum Unopened {
     View(Fault),
     Reason(String),
@@ -173,7 +173,7 @@ impl<'a> Strided<'a> {
         user: &str,
     ) -> Result<Self, Unopened> {
         let (description, bytes) = source.view(view, user).map_err(Unopened::View)?;
-        // A stride of 0 is that of OpenGL: no gaps.
+        // A stride of 0 means no gaps, as in OpenGL.
         let stride = description.byte_stride.map_or(size, |stride| stride.0);
         let stride = if stride == 0 { size } else { stride };
         if stride < size {
@@ -221,9 +221,9 @@ fn open_sparse<'a>(
     let index_size = component.0.size();
     let raw = Strided::open(source, indices.buffer_view, indices.byte_offset.0, replaced, index_size, user)?;
     let values = Strided::open(source, values.buffer_view, values.byte_offset.0, replaced, size, user)?;
-    // Bounded: all of them have been found in the file.
+    // The allocation is bounded, because all values have been found in the file.
     let mut indices: Vec<(u32, usize)> = (0..).map_while(|place| Some((unsigned(raw.get(place)?), place))).collect();
-    // The specification asks for indices that increase; of equal ones the last value counts.
+    // The specification requires increasing indices. Among equal ones the last value counts.
     indices.reverse();
     indices.sort_by_key(|&(index, _)| index);
     indices.dedup_by_key(|(index, _)| *index);
@@ -248,7 +248,7 @@ fn real(bytes: &[u8], component: ComponentType, normalized: bool) -> f32 {
         ComponentType::I16 => (f32::from(bits as u16 as i16), 32_767.0),
         ComponentType::U16 => (bits as f32, 65_535.0),
     };
-    // The most negative integer would otherwise lie below −1.
+    // Without the maximum, the most negative integer would lie below −1.
     if normalized { (value / largest).max(-1.0) } else { value }
 }
 

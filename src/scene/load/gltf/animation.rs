@@ -12,11 +12,10 @@ use super::source::{Source, lookup};
 use crate::scene::description::{Animation, Channel, Interpolation, Scene, Target};
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most values that the channels of one file may have together. Channels may share accessors, so that the size of the
-/// file alone does not bound them.
+/// Most values of all channels of one file. The size of the file does not bound them, because channels may share accessors.
 const MAX_VALUES: usize = 1 << 25;
 
-/// Reads all animations, which keep their indices. Channels of nodes that are not in the scene are left out.
+/// Reads all animations, which keep their indices. Channels of nodes outside the scene are left out.
 pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene, places: &Places) {
     let mut values = 0;
     for (index, animation) in source.root.animations.iter().enumerate() {
@@ -45,7 +44,7 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
     }
 }
 
-/// Reads a channel. `None` where it moves nothing that is drawn.
+/// Reads a channel. `None` if it moves nothing that is drawn.
 fn read_channel(
     source: &Source<'_>,
     animation: &json::Animation,
@@ -130,13 +129,13 @@ fn read(
 struct Keys {
     times: Vec<f32>,
     values: Vec<[f32; 4]>,
-    /// Keys that are not finite.
+    /// Number of keys that are not finite.
     broken: usize,
     disordered: bool,
 }
 
 impl Keys {
-    /// Adds a key. Two keys of the same time are how some exporters write a jump: the second one is an instant later.
+    /// Adds a key. Some exporters write a jump as two keys of the same time; the second one is then moved by an instant.
     fn add(&mut self, time: f32, values: &[[f32; 4]]) {
         if !time.is_finite() || values.iter().flatten().any(|number| !number.is_finite()) {
             self.broken += 1;
@@ -144,7 +143,7 @@ impl Keys {
         }
         let later = match self.times.last() {
             Some(&last) if time <= last => {
-                // As many keys of one time as there are move by as many instants.
+                // Each further key of the same time moves by one instant more.
                 self.disordered |= time < last - 1e-5 * last.abs().max(1.0);
                 last.next_up()
             }

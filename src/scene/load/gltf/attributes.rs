@@ -1,4 +1,4 @@
-//! Vertex attributes. An attribute that is broken costs itself.
+//! Vertex attributes. A broken attribute is lost alone.
 
 use gltf::json::accessor::Type;
 use gltf::json::mesh::{Primitive, Semantic};
@@ -14,9 +14,9 @@ use crate::scene::load::common::report::{Fault, Report};
 pub(super) struct Vertices<'a> {
     pub source: &'a Source<'a>,
     pub primitive: &'a Primitive,
-    /// Vertices that there are.
+    /// Number of vertices.
     pub count: usize,
-    /// Those of them that are used, in increasing order.
+    /// The vertices in use, in increasing order.
     pub kept: &'a [u32],
     /// The primitive, as messages name it.
     pub element: &'a str,
@@ -43,7 +43,7 @@ impl<'a> Vertices<'a> {
         Ok(elements)
     }
 
-    /// Normals as the file has them, or none.
+    /// The normals of the file, or an empty list.
     pub fn normals(&self, report: &mut Report) -> Vec<[f32; 3]> {
         let Some(accessor) = self.attribute(Semantic::Normals) else { return Vec::new() };
         match self.open(accessor, Type::Vec3, REAL, &format!("{}.attributes.NORMAL", self.element)) {
@@ -55,7 +55,7 @@ impl<'a> Vertices<'a> {
         }
     }
 
-    /// Texture coordinates of a set, or none.
+    /// Texture coordinates of a set, or an empty list.
     pub fn uvs(&self, set: u32, report: &mut Report) -> Vec<[f32; 2]> {
         let Some(accessor) = self.attribute(Semantic::TexCoords(set)) else { return Vec::new() };
         let user = format!("{}.attributes.TEXCOORD_{set}", self.element);
@@ -78,7 +78,7 @@ impl<'a> Vertices<'a> {
         uvs
     }
 
-    /// Linear colours and opacities, or none where all are white: some exporters write white ones always.
+    /// Linear colours and opacities. Empty if all are white, because some exporters always write white ones.
     pub fn colors(&self, report: &mut Report) -> Vec<[f32; 4]> {
         let Some(accessor) = self.attribute(Semantic::Colors(0)) else { return Vec::new() };
         let user = format!("{}.attributes.COLOR_0", self.element);
@@ -118,7 +118,7 @@ pub(super) fn gather<const N: usize>(elements: &Elements, kept: &[u32]) -> Vec<[
     kept.iter().map(|&vertex| elements.vector(vertex as usize)).collect()
 }
 
-/// Says once for each kind of data that a primitive has and that is not read.
+/// Warns once about each kind of data of a primitive that is not read.
 pub(super) fn warn_unread(primitive: &Primitive, element: &str, report: &mut Report) {
     for semantic in primitive.attributes.keys() {
         let reason = match semantic {
@@ -132,7 +132,7 @@ pub(super) fn warn_unread(primitive: &Primitive, element: &str, report: &mut Rep
     }
 }
 
-/// Warns where the textures of a material have no coordinates.
+/// Warns if the textures of a material have no coordinates.
 pub(super) fn warn_missing_uvs(material: &Material, mesh: &Mesh, element: &str, report: &mut Report) {
     for (_, texture) in material.textures() {
         let set = texture.uv_set;

@@ -1,4 +1,4 @@
-//! The bytes that a file refers to: the binary chunk, data URIs and files.
+//! The bytes to which a file refers: the binary chunk, data URIs and files.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use gltf::json::Root;
 use crate::scene::load::common::folder::{Folder, Located, percent_decode};
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Padding at the end is often left out.
+/// Base64 with or without padding at the end, because many writers omit it.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
     &alphabet::STANDARD,
     GeneralPurposeConfig::new()
@@ -20,10 +20,10 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
         .with_decode_allow_trailing_bits(true),
 );
 
-/// The bytes of a buffer, or the reason why there are none. A buffer that is missing costs its users alone.
+/// The bytes of a buffer, or the reason why there are none. A missing buffer affects only the elements that use it.
 pub(super) type Buffer = Result<Rc<[u8]>, Fault>;
 
-/// Reads all buffers of a file. Those that name the same file share its bytes.
+/// Reads all buffers of a file. Buffers that name the same file share its bytes.
 pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder<'_>, report: &mut Report) -> Vec<Buffer> {
     let mut files: HashMap<PathBuf, Rc<[u8]>> = HashMap::new();
     let mut read = |(index, buffer): (usize, &gltf::json::Buffer)| {
@@ -59,7 +59,7 @@ pub(super) fn read_all(root: &Root, binary: Option<&[u8]>, folder: &Folder<'_>, 
     root.buffers.iter().enumerate().map(&mut read).collect()
 }
 
-/// The content of a `data:` URI of any MIME type, or `None` where it is none. The error is a reason.
+/// The content of a `data:` URI of any MIME type, or `None` for any other URI. The error is a reason.
 pub(super) fn data_uri(uri: &str) -> Option<Result<Vec<u8>, String>> {
     let (scheme, rest) = uri.trim_start().split_once(':').filter(|(scheme, _)| scheme.eq_ignore_ascii_case("data"))?;
     let Some((kind, content)) = rest.split_once(',') else {

@@ -9,7 +9,7 @@ use super::source::Source;
 use crate::scene::description::{Perspective, Scene};
 use crate::scene::load::common::report::Report;
 
-/// Reads the perspective cameras; the result tells for each camera of the file which one of the scene it became.
+/// Reads the perspective cameras. Returns the index in the scene of each camera of the file.
 pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Vec<Option<usize>> {
     let mut places = Vec::new();
     for (index, camera) in source.root.cameras.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! From bytes to JSON: the GLB container, the version and the extensions of a file.
+//! The way from bytes to JSON: the GLB container, the version and the extensions of a file.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use crate::scene::load::common::encoding;
 use crate::scene::load::common::recognise::foreign;
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Extensions that are honoured.
+/// The extensions that are honoured.
 const READ: [&str; 11] = [
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
@@ -33,7 +33,7 @@ pub(super) struct Container<'a> {
     pub binary: Option<&'a [u8]>,
 }
 
-/// Takes a `.gltf` or `.glb` file apart, whatever its name, and checks that it can be read at all.
+/// Splits a `.gltf` or `.glb` file into its parts, whatever its name, and checks that it can be read at all.
 pub(super) fn open<'a>(bytes: &'a [u8], report: &mut Report) -> Result<Container<'a>, Fault> {
     let (json, binary) = if bytes.starts_with(b"glTF") { split(bytes, report)? } else { (bytes, None) };
     let root = parse(json, report)?;
@@ -58,7 +58,7 @@ fn split<'a>(bytes: &'a [u8], report: &mut Report) -> Result<(&'a [u8], Option<&
     let is_chunk = |at: usize| matches!(bytes.get(at + 4..at + 8), Some(b"JSON" | b"BIN\0"));
     let mut chunks = Vec::new();
     let mut at = 12;
-    // Writers that stream leave a length of 0, others count the first chunk alone.
+    // Streaming writers leave a length of 0. Other writers count the first chunk alone.
     while at < length.min(bytes.len()) || is_chunk(at) {
         let size = word(at).map(|size| size as usize);
         let kind = word(at + 4).map(u32::to_le_bytes);
@@ -66,7 +66,7 @@ fn split<'a>(bytes: &'a [u8], report: &mut Report) -> Result<(&'a [u8], Option<&
         let chunk = size.as_ref().ok().and_then(|&size| bytes.get(start..start.checked_add(size)?));
         let (Ok(size), Ok(kind), Some(chunk)) = (&size, &kind, chunk) else {
             if !chunks.is_empty() && !is_chunk(at) {
-                break; // bytes behind the last chunk
+                break; // bytes after the last chunk
             }
             size.as_ref().map_err(Fault::clone)?;
             kind.as_ref().map_err(Fault::clone)?;
@@ -80,7 +80,7 @@ fn split<'a>(bytes: &'a [u8], report: &mut Report) -> Result<(&'a [u8], Option<&
     }
     let json = chunks.first().filter(|(kind, _)| kind == b"JSON").map(|&(_, chunk)| chunk);
     let json = json.ok_or_else(|| Fault::new("GLB chunk 0", "is not JSON"))?;
-    // Chunks of other kinds are to be ignored.
+    // The specification says to ignore chunks of other kinds.
     let binary = chunks.iter().find(|(kind, _)| kind == b"BIN\0").map(|&(_, chunk)| chunk);
     if length > bytes.len() {
         if binary.is_none() {
@@ -124,13 +124,14 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
     mend(value, report)
 }
 
-/// The value at the start of a text behind which there are other characters.
+/// The value at the start of a text that continues with other characters.
 fn before_rest(json: &[u8], error: &serde_json::Error) -> Option<Value> {
     let rest = error.to_string().starts_with("trailing characters");
     rest.then(|| serde_json::Deserializer::from_slice(json).into_iter().next()?.ok()).flatten()
 }
 
-/// What a text says that is not JSON, in whatever encoding. The fault is the reader's own, unless the file is of another kind.
+/// The value of a text in any encoding that is not strict JSON. The fault is that of the JSON reader, unless the file is of another
+/// kind.
 fn nearly_json(whole: &[u8], error: &serde_json::Error) -> Result<Value, Fault> {
     let (text, _) = encoding::decode(whole);
     serde_json::from_str(&tidy(&text)).map_err(|_| match foreign(whole) {
@@ -139,7 +140,7 @@ fn nearly_json(whole: &[u8], error: &serde_json::Error) -> Result<Value, Fault> 
     })
 }
 
-/// Names what morph targets move beside positions and normals, which the JSON reader does not tell.
+/// Warns of attributes that morph targets move beside positions and normals. The JSON reader drops these.
 fn warn_of_targets(root: &Value, report: &mut Report) {
     fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
         value.get(name).and_then(Value::as_array).map_or(&[], Vec::as_slice)
@@ -160,7 +161,7 @@ fn warn_of_targets(root: &Value, report: &mut Report) {
 fn check_kind(root: &mut Value, report: &mut Report) -> Result<(), Fault> {
     let lists = ["meshes", "nodes", "accessors"];
     let version = root.pointer("/asset/version").cloned();
-    // The lists of glTF 1.0 are objects.
+    // In glTF 1.0, lists are objects.
     let first = lists.iter().any(|&list| root.get(list).is_some_and(Value::is_object));
     match version {
         Some(Value::String(version)) if !version.starts_with('1') && !first => return Ok(()),
@@ -210,7 +211,7 @@ fn check_extensions(root: &Root, report: &mut Report) -> Result<(), Fault> {
             return Err(Fault::new(element, format!("{name} is not supported; supported are {}", READ.join(", "))));
         }
     }
-    // Extensions that a file uses without saying so are as good as the others.
+    // Extensions that a file uses without declaring them are read like the others.
     let materials = root.materials.iter().filter_map(|material| Some(&material.extensions.as_ref()?.others));
     let nodes = root.nodes.iter().filter_map(|node| Some(&node.extensions.as_ref()?.others));
     let undeclared: BTreeSet<&String> = materials.chain(nodes).flat_map(|others| others.keys()).collect();

@@ -1,4 +1,4 @@
-//! Morph targets and skins, applied when a file is read: the shape at rest.
+//! Morph targets and skins. They are applied when a file is read, which gives the shape at rest.
 
 use std::hash::{Hash, Hasher};
 use std::rc::Rc;
@@ -15,13 +15,13 @@ use super::source::Source;
 use crate::scene::description::Mesh;
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Sets of four joints that a vertex may have.
+/// Most sets of four joints of a vertex.
 const MOST_SETS: u32 = 8;
 
 /// The shape in which a node draws its mesh.
 #[derive(Clone, Default)]
 pub(super) struct Deformation {
-    /// Of the morph targets; those beyond are 0.
+    /// Weights of the morph targets. Missing weights are 0.
     pub weights: Vec<f32>,
     pub skin: Option<Rc<Skin>>,
 }
@@ -46,7 +46,7 @@ impl Hash for Deformation {
 /// A skin whose joints are at rest.
 pub(super) struct Skin {
     index: usize,
-    /// From the space of the mesh to that of the scene, through each joint.
+    /// The map from the space of the mesh to that of the scene, for each joint.
     joints: Vec<Mat4>,
 }
 
@@ -97,14 +97,14 @@ impl Deformation {
         if let Some(skin) = &self.skin {
             match Influences::open(vertices, report) {
                 Ok(influences) => influences.bend(skin, vertices, mesh, report),
-                // The node of a skinned mesh places nothing.
+                // The node of a skinned mesh does not place it.
                 Err(fault) => report.replace(fault, "the primitive is drawn where its first joint is"),
             }
         }
     }
 }
 
-/// Whether all primitives of a mesh have joints and weights that can be read. Otherwise the mesh is drawn where its node is.
+/// True if all primitives of a mesh have joints and weights that can be read. Otherwise the mesh is drawn where its node is.
 pub(super) fn check_influences(source: &Source<'_>, mesh: &MeshSource, element: &str) -> Result<(), Fault> {
     for (number, primitive) in mesh.primitives.iter().enumerate() {
         let position = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
@@ -116,7 +116,7 @@ pub(super) fn check_influences(source: &Source<'_>, mesh: &MeshSource, element: 
     Ok(())
 }
 
-/// Adds a weighted morph target. Targets that the primitive has not got are 0.
+/// Adds a weighted morph target. A target that the primitive lacks is 0.
 fn morph(vertices: &Vertices<'_>, number: usize, weight: f32, mesh: &mut Mesh, report: &mut Report) {
     let targets = vertices.primitive.targets.as_deref().unwrap_or_default();
     let Some(target) = targets.get(number) else { return };
@@ -137,7 +137,7 @@ fn morph(vertices: &Vertices<'_>, number: usize, weight: f32, mesh: &mut Mesh, r
     }
 }
 
-/// Which joints hold each vertex, and how much.
+/// The joints of each vertex, and their weights.
 struct Influences<'a> {
     sets: Vec<(Elements<'a>, Elements<'a>)>,
 }
@@ -169,8 +169,8 @@ impl<'a> Influences<'a> {
         Ok((open("JOINTS", Semantic::Joints(set), JOINT)?, open("WEIGHTS", Semantic::Weights(set), REAL)?))
     }
 
-    /// Linear blend skinning (Magnenat-Thalmann et al. 1988): Σ wⱼ Mⱼ p, with weights whose sum is made 1. A vertex without
-    /// weights follows its first joint. Where the joints mirror, triangles are turned over, so that their front stays the front.
+    /// Linear blend skinning (Magnenat-Thalmann et al. 1988): Σ wⱼ Mⱼ p, with weights normalised to a sum of 1. A vertex without weights
+    /// follows its first joint. If the joints mirror, triangles are reversed, so that their front stays the front.
     fn bend(&self, skin: &Skin, vertices: &Vertices<'_>, mesh: &mut Mesh, report: &mut Report) {
         let mut foreign = 0;
         let mut unweighted = 0;
@@ -209,11 +209,11 @@ impl<'a> Influences<'a> {
                 *position = matrix.transform_point3((*position).into()).to_array();
             }
             if let Some(normal) = mesh.normals.get_mut(place) {
-                // Normals go with the inverse's transpose, whose length does not matter here: the cofactors.
+                // Normals transform by the transpose of the inverse. Its scale does not matter here, so the cofactors will do.
                 let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(Vec4::truncate);
                 let sign = Mat3::from_cols(x, y, z).determinant().signum();
                 let cofactors = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
-                // Joints in centimetres make them small; a length far from 1 would count as no direction.
+                // Joints in centimetres make normals short, and one far from length 1 would count as having no direction.
                 *normal = (cofactors * Vec3::from(*normal)).normalize_or_zero().to_array();
             }
         }

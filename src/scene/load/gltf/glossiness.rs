@@ -1,7 +1,7 @@
-//! Specular-glossiness materials (KHR_materials_pbrSpecularGlossiness), which older files have.
+//! Specular-glossiness materials (KHR_materials_pbrSpecularGlossiness) of older files.
 //!
-//! The extension's model is Lambert + GGX too: diffuse colour c · (1 − max(s)), F₀ = s, roughness 1 − glossiness. All but the
-//! roughness of a texture are fields of [`Material`] as they are; the texture is made from the glossiness.
+//! The model of the extension is Lambert + GGX too: diffuse colour c · (1 − max(s)), F₀ = s, roughness 1 − glossiness. All of these are
+//! fields of [`Material`]. Only the roughness texture has to be made, from the glossiness.
 
 use gltf::json::extensions::material::PbrSpecularGlossiness;
 

@@ -16,18 +16,18 @@ use crate::scene::load::common::decode::decode;
 use crate::scene::load::common::folder::Located;
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most texels that the images of one file may have together (4 GiB).
+/// Most texels of all images of one file (4 GiB).
 const MAX_TEXELS: usize = 1 << 30;
 
-/// The images of a file, as far as they were asked for.
+/// The images of a file that were requested.
 pub(super) struct Images<'a> {
     source: &'a Source<'a>,
-    /// What was decoded.
+    /// The decoded images.
     pub images: Vec<Image>,
     texels: usize,
-    /// What became of each image of the file: its place in `images`, or nothing if it cannot be read.
+    /// The place in `images` of each image of the file, or `None` if it cannot be read.
     known: HashMap<usize, Option<usize>>,
-    /// The same for files, which several images may name.
+    /// The same by files, because several images may name one file.
     files: HashMap<PathBuf, Option<usize>>,
 }
 
@@ -36,7 +36,7 @@ impl<'a> Images<'a> {
         Self { source, images: Vec::new(), texels: 0, known: HashMap::new(), files: HashMap::new() }
     }
 
-    /// The texture of a material. A texture that cannot be read costs itself and a warning.
+    /// The texture of a material. If it cannot be read, it alone is lost, with a warning.
     pub fn texture(&mut self, info: &Option<Info>, element: &str, report: &mut Report) -> Option<Texture> {
         let info = info.as_ref()?;
         let texture = match self.source.get(info.index, element) {
@@ -75,7 +75,7 @@ impl<'a> Images<'a> {
         Some(used)
     }
 
-    /// Looks at the images that no texture asked for, so that a file that is incomplete is never silently so.
+    /// Checks the images that no texture requested, so that an incomplete file always gives a warning.
     pub fn check_unused(&self, report: &mut Report) {
         let unused = self.source.root.images.iter().enumerate().filter(|(index, _)| !self.known.contains_key(index));
         for (index, image) in unused {
@@ -90,9 +90,9 @@ impl<'a> Images<'a> {
         }
     }
 
-    /// The first image of a texture that can be read: its source, or what an extension has instead.
+    /// The first readable image of a texture: its source, or that of an extension.
     fn image(&mut self, texture: &TextureSource, index: Index<TextureSource>, report: &mut Report) -> Option<usize> {
-        // The JSON reader stands this in for an absent source.
+        // The JSON reader puts this in the place of an absent source.
         let own = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
         let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
         let named = |extension: &str| others?.get(extension)?.get("source")?.as_u64().map(|source| source as usize);
@@ -127,7 +127,7 @@ impl<'a> Images<'a> {
         known
     }
 
-    /// Decodes an image, unless the same file failed before: then there is `None`, and nothing more to say.
+    /// Decodes an image. `None`, without a warning, if the same file failed before.
     fn decode(&mut self, image: &ImageSource, index: usize, report: &mut Report) -> Result<Option<usize>, String> {
         let name = image.name.clone().or_else(|| image.uri.clone().filter(|uri| data_uri(uri).is_none()));
         let name = name.unwrap_or_else(|| format!("image {index}"));
@@ -152,7 +152,7 @@ impl<'a> Images<'a> {
         self.add(&name, bytes).map(Some)
     }
 
-    /// The same texture without holes.
+    /// The same texture, opaque everywhere.
     pub fn opaque(&mut self, texture: Texture) -> Texture {
         let Some(image) = self.images.get(texture.image) else { return texture };
         if image.texels.iter().all(|texel| texel[3] == 255) {
@@ -174,8 +174,8 @@ impl<'a> Images<'a> {
     }
 }
 
-/// The map of KHR_texture_transform: scale, then rotate, then offset. v grows downwards in the image, so that a
-/// counter-clockwise rotation has the signs that it would have clockwise with v upwards.
+/// The map of KHR_texture_transform: scale, then rotate, then offset. Because v grows downwards in the image, a counter-clockwise
+/// rotation has the signs of a clockwise one with v upwards.
 fn affine(offset: [f32; 2], rotation: f32, scale: [f32; 2]) -> [[f32; 3]; 2] {
     let (sin, cos) = rotation.sin_cos();
     [[cos * scale[0], sin * scale[1], offset[0]], [-sin * scale[0], cos * scale[1], offset[1]]]

@@ -10,10 +10,11 @@ use super::source::Source;
 use crate::scene::description::Transform;
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most instances of one file. Attributes without data would cost a file nothing, and nodes may share them.
+/// Most instances of one file. The size of the file does not bound them: attributes without data cost nothing, and nodes may share
+/// attributes.
 const MOST: usize = 1 << 20;
 
-/// Where the instances of a node are, relative to it; `None` for a node that is placed once.
+/// The placements of the instances of a node, relative to it. `None` for a node that is placed once.
 pub(super) fn instances(
     source: &Source<'_>,
     node: &NodeSource,

@@ -15,7 +15,7 @@ pub(super) fn listed<'a>(source: &'a Source<'_>) -> &'a [LightSource] {
     extension.map_or(&[], |extension| &extension.lights)
 }
 
-/// Reads the lights; the result tells for each light of the file which one of the scene it became.
+/// Reads the lights. Returns the index in the scene of each light of the file.
 pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Vec<Option<usize>> {
     let mut places = Vec::new();
     for (index, light) in listed(source).iter().enumerate() {

@@ -24,7 +24,7 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
     scene.images = images.images;
 }
 
-/// What a primitive without a material looks like.
+/// The material of a primitive without one.
 pub(super) fn default_material() -> Material {
     let specular = [reflectance(IOR); 3];
     Material { name: "default".into(), metallic: 1.0, roughness: 1.0, specular, ..Material::default() }

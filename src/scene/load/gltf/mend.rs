@@ -1,8 +1,8 @@
-//! JSON that is not glTF in places: each element that cannot be read is left out on its own.
+//! Repair of JSON that is not glTF in places: each element that cannot be read is left out on its own.
 //!
-//! The JSON reader refuses a whole file for one value of a wrong type. Here the value is looked for and removed, so that
-//! its default stands for it. If the element needs it, the element is removed; an element that others number is replaced by
-//! an empty one of its list, because a gap would renumber those behind it.
+//! The JSON reader refuses a whole file for one value of a wrong type. Here the value is found and removed, so that its default applies.
+//! If an element requires the value, the element is removed. An element to which others refer by number is replaced by an empty one,
+//! because a gap would renumber the elements after it.
 
 use gltf::json::{self, Root};
 use serde::de::DeserializeOwned;
@@ -11,7 +11,7 @@ use serde_path_to_error::{Path, Segment, deserialize};
 
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most values that are removed from one element before the element itself is given up.
+/// Most values that are removed from one element before the element itself is removed.
 const MOST: usize = 256;
 
 /// The root of a file whose JSON is not that of glTF 2.0 everywhere.
@@ -56,7 +56,7 @@ fn mend_list<T: DeserializeOwned>(root: &mut Value, name: &str, report: &mut Rep
     }
 }
 
-/// Reads an element at `place`, after what of it cannot be read has been removed.
+/// Reads an element at `place`, after its unreadable values have been removed.
 fn read<T: DeserializeOwned>(element: &mut Value, place: &str, report: &mut Report) -> Result<T, Fault> {
     let mut removed: Option<Vec<Key>> = None;
     for _ in 0..MOST {
@@ -67,7 +67,7 @@ fn read<T: DeserializeOwned>(element: &mut Value, place: &str, report: &mut Repo
         let reason = error.inner().to_string();
         let fault = || Fault::new(if place.is_empty() { "JSON" } else { place }, reason.clone());
         let place_of_error = keys(error.path());
-        // A value that an element needs costs the element: one warning is enough for both.
+        // Without a required value the element is lost, and one warning is enough for both.
         if removed.as_ref().is_some_and(|removed| removed.starts_with(&place_of_error)) {
             report.withdraw();
         }
@@ -98,10 +98,10 @@ fn keys(path: &Path) -> Vec<Key> {
     path.iter().map_while(key).collect()
 }
 
-/// The smallest part of `element` at or above the end of `path` that may be absent.
+/// The smallest part of `element`, at the end of `path` or above it, that may be absent.
 fn removable(path: &[Key], element: &Value, reason: &str) -> Option<Vec<Key>> {
     let mut path = path.to_vec();
-    // The path ends at an object one of whose members is at fault, where the reader does not tell which: extensions.
+    // In extensions the path ends at an object with a faulty member, because the reader does not tell which.
     if let Some(Value::Object(members)) = at(element, &path)
         && path.last() == Some(&Key::Member("extensions".into()))
         && members.len() == 1
@@ -112,7 +112,7 @@ fn removable(path: &[Key], element: &Value, reason: &str) -> Option<Vec<Key>> {
     loop {
         match (path.last()?, path.get(path.len().wrapping_sub(2))) {
             (Key::Member(_), _) => return Some(path),
-            // Lists of things that nothing numbers, and lists that are read one by one.
+            // Lists without references into them, and lists that are read one by one.
             (Key::Index(_), Some(Key::Member(list))) if list_of(list).is_some() => return Some(path),
             // The components of a vector.
             (Key::Index(_), _) => path.pop(),
@@ -156,11 +156,11 @@ fn remove(element: &mut Value, path: &[Key]) -> bool {
     }
 }
 
-/// Whether elements may leave a list.
+/// The rule for removing elements of a list.
 enum List {
-    /// Nothing numbers them.
+    /// Nothing refers to them by number.
     Free,
-    /// Something numbers them; an empty one takes the place of one that is removed.
+    /// Others refer to them by number, so that an empty one takes the place of a removed one.
     Numbered,
 }
 
@@ -202,10 +202,10 @@ fn written(place: &str, path: &[Key]) -> String {
     written
 }
 
-/// Writes whole numbers as whole numbers, because some exporters print all numbers with a decimal point and the reader
-/// takes `5126.0` for no integer. Real numbers may be written as whole ones.
+/// Writes whole numbers without a decimal point, because some exporters print all numbers with one and the reader does not take `5126.0`
+/// for an integer. Real numbers may be written as whole ones.
 fn whole_numbers(value: &mut Value) {
-    /// Whole numbers up to here are the same as f64 and as integers.
+    /// Whole numbers up to here are exact in f64.
     const LARGEST: f64 = 9_007_199_254_740_992.0;
     match value {
         Value::Number(number) if number.is_f64() => {
@@ -220,7 +220,7 @@ fn whole_numbers(value: &mut Value) {
     }
 }
 
-/// Removes indices of −1, by which some writers say that there is none. Tells whether there were any.
+/// Removes indices of −1, which some writers use for an absent one. Returns true if there were any.
 fn remove_absent(value: &mut Value) -> bool {
     const INDICES: [&str; 9] =
         ["material", "mesh", "skin", "camera", "sampler", "source", "skeleton", "scene", "inverseBindMatrices"];
@@ -236,8 +236,8 @@ fn remove_absent(value: &mut Value) -> bool {
     }
 }
 
-/// Removes the animation channels without a node, which belong to an extension, and gives a scene without nodes an empty
-/// list: the specification allows both and the reader does not. Tells whether channels were removed.
+/// Removes animation channels without a node, which belong to an extension, and gives a scene without nodes an empty list. The
+/// specification allows both, but the reader does not. Returns true if channels were removed.
 fn remove_foreign_channels(root: &mut Value) -> bool {
     let mut removed = false;
     for animation in elements(root, "animations") {

@@ -1,4 +1,4 @@
-//! Primitives to triangle lists.
+//! Conversion of primitives to triangle lists.
 
 use std::collections::HashMap;
 
@@ -16,20 +16,19 @@ use super::source::Source;
 use crate::scene::description::{Material, Mesh, Scene};
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most triangles that the meshes of one file may have together. Primitives may share one index buffer, so that the
-/// size of the file alone does not bound them.
+/// Most triangles of all meshes of one file. The size of the file does not bound them, because primitives may share an index buffer.
 const MAX_TRIANGLES: usize = 1 << 26;
 
-/// Most vertices likewise: accessors without data cost a file nothing.
+/// Most vertices of all meshes of one file. The size of the file does not bound them, because accessors without data cost nothing.
 const MAX_VERTICES: usize = 1 << 27;
 
-/// The meshes of a file, as far as they were asked for.
+/// The meshes of a file that were requested.
 pub(super) struct Meshes<'a> {
     source: &'a Source<'a>,
     triangles: usize,
     vertices: usize,
     default_material: Option<usize>,
-    /// Which meshes of the scene each mesh of the file became in a shape: one per primitive.
+    /// The meshes of the scene for each mesh of the file in a shape, one per primitive.
     known: HashMap<(usize, Deformation), Vec<usize>>,
 }
 
@@ -38,7 +37,7 @@ impl<'a> Meshes<'a> {
         Self { source, triangles: 0, vertices: 0, default_material: None, known: HashMap::new() }
     }
 
-    /// The meshes of the scene that a mesh of the file consists of in a shape, which are read on the first call.
+    /// The meshes of the scene for a mesh of the file in a shape. The first call reads them.
     pub fn get(
         &mut self,
         index: Index<MeshSource>,
@@ -68,7 +67,7 @@ impl<'a> Meshes<'a> {
         parts
     }
 
-    /// Reads a primitive. `None` where there is nothing to draw.
+    /// Reads a primitive. `None` if there is nothing to draw.
     fn read(
         &mut self,
         primitive: &Primitive,
@@ -102,7 +101,7 @@ impl<'a> Meshes<'a> {
             report.warn(element, "there are no triangles");
             return Ok(None);
         }
-        // Vertex buffers are often shared by many primitives, each of which uses a part of it.
+        // Many primitives often share a vertex buffer, and each uses a part of it.
         let kept = used(triangles.as_flattened(), positions.len());
         let vertices = Vertices { source: self.source, primitive, count: positions.len(), kept: &kept, element };
         self.vertices = self.vertices.saturating_add(kept.len());
@@ -162,7 +161,7 @@ impl<'a> Meshes<'a> {
         };
         let corners: Vec<u32> = (0..count).map(|index| indices.integer(index)).collect();
         match corners.iter().position(|&corner| corner as usize >= vertices) {
-            // What the other indices mean is not known then: a wrong buffer is likelier than one wrong number.
+            // All indices are suspect then, because a wrong buffer is likelier than one wrong number.
             Some(at) => {
                 let reason = format!("index {at} is {}, but there are only {vertices} vertices", corners[at]);
                 Err(Fault::new(user, reason))
@@ -191,12 +190,12 @@ impl<'a> Meshes<'a> {
     }
 }
 
-/// Triangles between corners.
+/// The triangles between corners.
 fn assemble(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
     match (mode, corners) {
         (Mode::TriangleStrip, corners) => {
             let windows = corners.windows(3).filter_map(|window| window.first_chunk::<3>());
-            // Every other triangle of a strip is wound the other way.
+            // Every other triangle of a strip has the opposite winding.
             windows.enumerate().map(|(i, &[a, b, c])| if i % 2 == 0 { [a, b, c] } else { [a, c, b] }).collect()
         }
         (Mode::TriangleFan, [hub, rim @ ..]) => {
@@ -210,7 +209,7 @@ fn assemble(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
 /// The vertices that corners use, in increasing order, each once.
 fn used(corners: &[u32], vertices: usize) -> Vec<u32> {
     if vertices > corners.len() {
-        // A list of all vertices could be far longer than what is used of it.
+        // A list of all vertices could be far longer than the list of those in use.
         let mut used = corners.to_vec();
         used.sort_unstable();
         used.dedup();
@@ -227,7 +226,7 @@ fn used(corners: &[u32], vertices: usize) -> Vec<u32> {
 
 /// Triangles whose corners are positions in `kept`, which is sorted.
 fn renumbered(mut triangles: Vec<[u32; 3]>, kept: &[u32]) -> Vec<[u32; 3]> {
-    // Sorted and each once: if the last one is in its place, all are.
+    // The list is sorted without duplicates: if the last one is in its place, all are.
     let all = kept.last().is_none_or(|&last| last as usize + 1 == kept.len());
     if !all {
         for corner in triangles.as_flattened_mut() {
@@ -237,7 +236,7 @@ fn renumbered(mut triangles: Vec<[u32; 3]>, kept: &[u32]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// Leaves out the triangles that have a corner nowhere.
+/// Removes the triangles that have a corner without a finite position.
 fn leave_out_broken(mesh: &mut Mesh, kept: &[u32], element: &str, report: &mut Report) -> Result<(), Fault> {
     let is_finite = |position: &[f32; 3]| position.iter().all(|number| number.is_finite());
     let Some(first) = mesh.positions.iter().position(|position| !is_finite(position)) else { return Ok(()) };

@@ -1,8 +1,7 @@
 //! glTF 2.0: `.gltf` with external or embedded data, and `.glb`.
 //!
-//! The `gltf` crate reads the JSON. Its own validation is not used: it refuses files that are common and harmless
-//! (a root of the scene that is another node's child, quantised attributes), so that everything is checked where it is
-//! read, here.
+//! The `gltf` crate reads the JSON. Its own validation refuses files that are common and harmless (a root of the scene that is another
+//! node's child, quantised attributes). Everything is therefore checked here, as it is read.
 
 mod accessor;
 mod animation;

@@ -15,7 +15,7 @@ use super::{camera, light};
 use crate::scene::description::{Node, Scene};
 use crate::scene::load::common::report::Report;
 
-/// Where each node of the file that is in the scene came to lie in [`Scene::nodes`].
+/// The index in [`Scene::nodes`] of each node of the file that is in the scene.
 pub(super) type Places = HashMap<usize, usize>;
 
 /// A node and its parent, if it has one.
@@ -61,7 +61,7 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
                     "is not read beside a skin; the mesh is drawn once",
                 );
             }
-            // The joints place a skinned mesh, and the transform of its node does not (glTF 2.0, 3.7.3.3).
+            // A skinned mesh is placed by its joints, and not by the transform of its node (glTF 2.0, 3.7.3.3).
             scene.nodes.extend([own, Node { name, meshes, ..Node::default() }]);
         } else if let Some(transforms) = instances(source, node, &element, &mut placed, report) {
             scene.nodes.push(own);
@@ -85,13 +85,13 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
 struct Shapes<'a> {
     source: &'a Source<'a>,
     meshes: Meshes<'a>,
-    /// The matrix of each node of the file, once a skin asks for it.
+    /// The matrix of each node of the file, once a skin needs it.
     world: Option<Vec<DMat4>>,
     skins: HashMap<usize, Option<Rc<Skin>>>,
 }
 
 impl Shapes<'_> {
-    /// The meshes of a node, and whether a skin places them.
+    /// The meshes of a node, and true if a skin places them.
     fn of(&mut self, node: &NodeSource, element: &str, report: &mut Report, scene: &mut Scene) -> (Vec<usize>, bool) {
         let Some(index) = node.mesh else { return (Vec::new(), false) };
         let mesh = match self.source.get(index, &format!("{element}.mesh")) {
@@ -150,7 +150,7 @@ fn ordered(source: &Source<'_>, report: &mut Report) -> Vec<Link> {
         })
         .collect();
 
-    // A scene may list a node that is also the child of another one. It is drawn once, below its parent.
+    // A scene may list a node that is also the child of another one. The node is drawn once, below its parent.
     let mut reachable = HashSet::new();
     let mut below = HashSet::new();
     let mut open = roots.clone();
@@ -182,13 +182,13 @@ fn ordered(source: &Source<'_>, report: &mut Report) -> Vec<Link> {
     order
 }
 
-/// Whether there is such a node; warns if not.
+/// True if there is such a node. Warns if not.
 fn exists(source: &Source<'_>, node: Index<NodeSource>, user: &str, report: &mut Report) -> bool {
     let found = source.get(node, user);
     found.map_err(|fault| report.replace(fault, "it is left out")).is_ok()
 }
 
-/// The roots of the default scene: the one that the file names, else its first, else every node without a parent.
+/// The roots of the default scene: of the scene that the file names, else of its first scene, else all nodes without a parent.
 fn roots(source: &Source<'_>, report: &mut Report) -> Vec<Index<NodeSource>> {
     let root = &source.root;
     if let Some(scene) = root.scene {
@@ -215,7 +215,7 @@ fn animated(source: &Source<'_>) -> HashSet<usize> {
     channels.map(|channel| channel.target.node.value()).collect()
 }
 
-/// Says that skins are drawn at rest, if an animation moves one of their joints.
+/// Warns that skins are drawn at rest, if an animation moves one of their joints.
 fn warn_of_moving_joints(source: &Source<'_>, report: &mut Report) {
     let nodes = &source.root.nodes;
     let mut moving = animated(source);

@@ -1,11 +1,11 @@
-//! Normals that a file has not got, or has as zeros.
+//! Normals that a file lacks, or has as zeros.
 
 use glam::Vec3;
 
 use crate::scene::description::Mesh;
 
-/// Makes all normals unit vectors; those without a direction get that of the triangles around, weighted by area.
-/// Returns how many those were.
+/// Makes all normals unit vectors. Normals without a direction get the mean of the triangles around, weighted by area. Returns the number
+/// of these.
 pub(super) fn repair_normals(mesh: &mut Mesh) -> usize {
     let mut replaced = 0;
     let mut around: Option<Vec<Vec3>> = None;

@@ -14,7 +14,7 @@ pub(super) struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// What an index refers to; `user` is the element that holds the index.
+    /// The element at an index. `user` is the element that holds the index.
     pub fn get<T>(&self, index: Index<T>, user: &str) -> Result<&T, Fault>
     where
         Root: AsRef<[T]>,
@@ -37,7 +37,7 @@ impl Source<'_> {
         }
         let buffer = buffer.as_ref().map_err(Fault::clone)?;
         let (start, length) = (view.byte_offset.map_or(0, |offset| offset.0), view.byte_length.0);
-        // Some writers round the length up past the end of the buffer: the users of the view tell whether bytes are missing.
+        // Some writers round the length up past the end of the buffer. The users of the view find out if bytes are missing.
         let end = start.saturating_add(length).min(buffer.len() as u64);
         let range = usize::try_from(start).ok().zip(usize::try_from(end).ok());
         let bytes = range.and_then(|(start, end)| buffer.get(start..end)).ok_or_else(|| {
@@ -47,7 +47,7 @@ impl Source<'_> {
     }
 }
 
-/// What an index into a list refers to; `user` is the element that holds the index.
+/// The element at an index into a list. `user` is the element that holds the index.
 pub(super) fn lookup<'a, T>(items: &'a [T], index: Index<T>, user: &str) -> Result<&'a T, Fault> {
     items
         .get(index.value())

@@ -1,11 +1,11 @@
-//! JSON as writers make it that are not JSON libraries.
+//! Repair of JSON that was not written by a JSON library.
 //!
-//! Some exporters print numbers with `printf`, so that NaN and infinity get into a file, paste paths with backslashes into
-//! strings, and break data URIs into lines. None of these is JSON, and a JSON parser refuses the whole file. The text is
-//! rewritten into JSON here, token by token: a number that is none becomes `null`, and the element that holds it is
-//! mended like any other ([`super::mend`]).
+//! Some exporters print numbers with `printf`, which brings NaN and infinity into a file, paste paths with backslashes into strings, and
+//! break data URIs into lines. None of these is JSON, and a JSON parser would refuse the whole file. Here the text is rewritten into
+//! JSON, token by token. A number that is none becomes `null`, and the element that holds it is repaired like any other
+//! ([`super::mend`]).
 
-/// Rewrites text into JSON. The result may still not be JSON.
+/// Rewrites text towards JSON. The result may still not be JSON.
 pub(super) fn tidy(text: &str) -> String {
     let mut tidy = String::with_capacity(text.len() + 64);
     let mut rest = text;
@@ -37,7 +37,7 @@ fn is_word(c: char) -> bool {
     c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.' | '#' | '(' | ')' | '_' | '$')
 }
 
-/// Numbers, `true`, `false` and `null`. `-nan(ind)`, `1.#QNAN` and `Infinity` become `null`.
+/// A number, `true`, `false` or `null`. `-nan(ind)`, `1.#QNAN` and `Infinity` become `null`.
 fn word<'a>(tidy: &mut String, rest: &'a str) -> &'a str {
     let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
     let (word, rest) = rest.split_at(end);
@@ -52,8 +52,8 @@ fn word<'a>(tidy: &mut String, rest: &'a str) -> &'a str {
     rest
 }
 
-/// A string from its first quotation mark to its last. Control characters are escaped. If a backslash escapes nothing, all
-/// backslashes of the string are taken to be those of a path.
+/// A string from its first quotation mark to its last. Control characters are escaped. If a backslash escapes nothing, all backslashes of
+/// the string are taken for those of a path.
 fn string<'a>(tidy: &mut String, rest: &'a str) -> &'a str {
     let mut characters = rest.char_indices().skip(1);
     let mut escapes = true;

@@ -9,7 +9,7 @@ use super::source::Source;
 use crate::scene::description::Transform;
 use crate::scene::load::common::report::{Fault, Report};
 
-/// The placement of a node relative to its parent. A part of it that is broken is that of the identity.
+/// The placement of a node relative to its parent. The identity replaces a broken part.
 pub(super) fn transform(node: &NodeSource, element: &str, report: &mut Report) -> Transform {
     let (transform, faults) = read(node);
     for (name, reason, instead) in faults {
@@ -18,7 +18,7 @@ pub(super) fn transform(node: &NodeSource, element: &str, report: &mut Report) -
     transform
 }
 
-/// A member of a node, what is wrong with it, and what stands for it.
+/// A member of a node, its defect, and its replacement.
 type Broken = (&'static str, String, &'static str);
 
 fn read(node: &NodeSource) -> (Transform, Vec<Broken>) {
@@ -60,7 +60,7 @@ fn read(node: &NodeSource) -> (Transform, Vec<Broken>) {
     (transform, faults)
 }
 
-/// Makes a transform one that can be animated.
+/// Converts a transform to one that can be animated.
 pub(super) fn separate(transform: Transform, element: &str, report: &mut Report) -> Transform {
     let Transform::Matrix(matrix) = transform else { return transform };
     let matrix = Mat4::from_cols_array_2d(&matrix);
@@ -70,7 +70,7 @@ pub(super) fn separate(transform: Transform, element: &str, report: &mut Report)
     Transform::Trs { translation: translation.into(), rotation: rotation.into(), scale: scale.into() }
 }
 
-/// The matrix of each node of the file at rest, whether its scene is drawn or not: joints may lie anywhere.
+/// The matrix of each node of the file at rest. Nodes of scenes that are not drawn have one too, because joints may be anywhere.
 pub(super) fn world(source: &Source<'_>) -> Vec<DMat4> {
     let nodes = &source.root.nodes;
     let mut parents = HashMap::new();
@@ -82,7 +82,7 @@ pub(super) fn world(source: &Source<'_>) -> Vec<DMat4> {
     let local: Vec<DMat4> = nodes.iter().map(|node| matrix(read(node).0)).collect();
     let mut world: Vec<Option<DMat4>> = vec![None; nodes.len()];
     for node in 0..nodes.len() {
-        // Up to an ancestor whose matrix is known, then down again. The count ends cycles.
+        // Up to an ancestor with a known matrix, then down again. The count ends cycles.
         let mut way = vec![node];
         while let Some(&parent) = way.last().and_then(|last| parents.get(last)) {
             if world[parent].is_some() || way.len() > nodes.len() {

@@ -8,7 +8,7 @@ use crate::scene::load::common::pane::thin_pane;
 use crate::scene::load::common::report::Report;
 use crate::scene::load::common::srgb::linear_from_srgb;
 
-/// Makes a material that transmits a thin pane. Textures count with their means, because a pane lets as much through everywhere.
+/// Turns a material that transmits into a thin pane. A texture counts with its mean, because a pane transmits the same everywhere.
 pub(super) fn apply(
     source: &MaterialSource,
     material: Material,
@@ -37,7 +37,7 @@ pub(super) fn apply(
     };
     let colored = mean(material.base_color_texture, light);
     let base_color_texture = match material.alpha {
-        // An opaque material ignores the opacity of its texture; a pane that blends would not.
+        // An opaque material ignores the opacity of its texture, but a pane that blends would not.
         Alpha::Opaque => material.base_color_texture.map(|texture| images.opaque(texture)),
         _ => material.base_color_texture,
     };

@@ -1,4 +1,4 @@
-//! Parts to meshes: corners with the same indices become one vertex.
+//! Conversion of parts to meshes. Corners with the same indices become one vertex.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use crate::scene::load::common::report::Fault;
 
 const WHITE: [f32; 4] = [1.0; 4];
 
-/// The mesh of a part, whose name and material are the caller's. `colors` may be shorter than the positions.
+/// The mesh of a part. The caller sets its name and material. `colors` may be shorter than the positions.
 pub(super) fn mesh(part: Part, vectors: &Vectors, colors: &[[f32; 4]]) -> Result<Mesh, Fault> {
     let mut mesh = Mesh { triangles: Vec::with_capacity(part.triangles.len()), ..Mesh::default() };
     let mut numbers: HashMap<Corner, u32> = HashMap::with_capacity(part.triangles.len());

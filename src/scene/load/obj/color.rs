@@ -1,26 +1,25 @@
-//! Colours of vertices: three or four numbers behind the position in a `v` statement, or the comments of ZBrush.
+//! Colours of vertices: three or four numbers after the position in a `v` statement, or the comments of ZBrush.
 //!
-//! The format does not say what the numbers mean. Blender and three.js take them as sRGB, as do we. The alpha of a fourth
-//! number is linear.
+//! The format does not define the numbers. They are read as sRGB, as Blender and three.js do. A fourth number is a linear alpha.
 
 use super::text::number;
 use crate::scene::load::common::report::Report;
 use crate::scene::load::common::srgb::linear_from_srgb;
 
 const WHITE: [f32; 4] = [1.0; 4];
-/// Rounding errors of exporters end here.
+/// The largest rounding error of exporters.
 const ROUNDING: f32 = 1.01;
 
 /// The colours of a file.
 #[derive(Default)]
 pub(super) struct Colors {
-    /// As the file has them, by vertex; NaN for those that have none.
+    /// The colours of the file, by vertex. NaN for vertices without one.
     encoded: Vec<[f32; 4]>,
     mrgb: Vec<[f32; 4]>,
 }
 
 impl Colors {
-    /// Takes in the colour of a vertex. The error is a reason why it has none.
+    /// Adds the colour of a vertex. The error is the reason why it has none.
     pub fn add<'a>(
         &mut self,
         vertex: usize,
@@ -44,7 +43,7 @@ impl Colors {
         Ok(())
     }
 
-    /// Takes in a comment of ZBrush: up to 64 vertices as `MMRRGGBB`, of which the first byte is a mask.
+    /// Adds a comment of ZBrush: up to 64 vertices as `MMRRGGBB`, whose first byte is a mask.
     pub fn add_mrgb(&mut self, digits: &str) {
         for vertex in digits.trim().as_bytes().as_chunks::<8>().0 {
             let digits = std::str::from_utf8(vertex).ok().and_then(|digits| u32::from_str_radix(digits, 16).ok());
@@ -54,7 +53,7 @@ impl Colors {
         }
     }
 
-    /// Linear colours of the first vertices, white for those that have none; the rest has none either.
+    /// Linear colours of the first vertices, white for those without one. All vertices after these have none.
     pub fn linear(mut self, report: &mut Report) -> Vec<[f32; 4]> {
         if self.encoded.is_empty() {
             self.encoded = self.mrgb;
@@ -62,7 +61,7 @@ impl Colors {
         let largest = |values: &mut dyn Iterator<Item = f32>| values.filter(|x| x.is_finite()).fold(0.0, f32::max);
         let color = largest(&mut self.encoded.iter().flat_map(|&[r, g, b, _]| [r, g, b]));
         let alpha = largest(&mut self.encoded.iter().map(|&[.., alpha]| alpha));
-        // Bytes are whole numbers; a colour of 2.5 is too bright a colour.
+        // Bytes are whole numbers. A number such as 2.5 is a colour that is too bright.
         let whole = self.encoded.iter().flatten().all(|x| !x.is_finite() || x.fract() == 0.0);
         let bytes = |largest: f32| if largest > 2.0 && whole { 255.0 } else { 1.0 };
         let divisors = [bytes(color), bytes(color), bytes(color), bytes(alpha)];

@@ -6,9 +6,9 @@ use super::tally::{Defect, Tally};
 use super::text::shortened;
 use super::vectors::Vectors;
 
-/// Stands for an index that is there and cannot be used.
+/// An index that is present but cannot be used.
 const BROKEN: i64 = -1;
-/// Stands for an index that is not there.
+/// An absent index.
 const ABSENT: i64 = 0;
 
 /// Names of positions, texture coordinates and normals in messages.
@@ -17,10 +17,10 @@ const KINDS: [&str; 3] = ["vertices", "texture coordinates", "normals"];
 /// The faces of a file.
 pub(super) struct Faces {
     pub parts: Parts,
-    /// How many statements there were.
+    /// Number of statements.
     pub count: usize,
     triangulator: Triangulator,
-    /// Faces that use vectors which stand further down.
+    /// Faces that use vectors of later lines.
     later: Vec<(usize, Context, Vec<[i64; 3]>)>,
     corners: Vec<[i64; 3]>,
     places: Vec<[f32; 3]>,
@@ -44,7 +44,7 @@ impl Default for Faces {
 }
 
 impl Faces {
-    /// Takes in one statement.
+    /// Adds one statement.
     pub fn add(&mut self, line: usize, values: &str, context: Context, vectors: &Vectors, tally: &mut Tally) {
         self.count += 1;
         let counts = vectors.counts();
@@ -69,7 +69,7 @@ impl Faces {
         self.corners = corners;
     }
 
-    /// Takes in the faces that waited for vectors.
+    /// Adds the faces that waited for vectors.
     pub fn finish(&mut self, vectors: &Vectors, tally: &mut Tally) {
         for (line, context, corners) in std::mem::take(&mut self.later) {
             self.face(line, context, &corners, vectors, tally);
@@ -89,14 +89,14 @@ impl Faces {
             }
         }
         if self.places.as_flattened().iter().any(|x| x.is_nan()) {
-            // The defect of the position was counted.
+            // The defect of the position is counted already.
             return;
         }
         if corners.len() < 3 {
             let reason = || format!("f: {} corners, where 3 or more belong; the face is left out", corners.len());
             return tally.add(Defect::ShortFace, line, reason);
         }
-        // Attributes count where every corner has them.
+        // A face has an attribute only if all its corners have it.
         let [uvs, normals] = [1, 2].map(|kind| corners.iter().filter(|corner| corner[kind] != ABSENT).count());
         if [uvs, normals].iter().any(|&count| count > 0 && count < corners.len()) {
             let reason = "f: only some corners have texture coordinates or normals; the face is drawn without them";
@@ -151,14 +151,14 @@ impl Faces {
 }
 
 impl Vectors {
-    /// How many positions, texture coordinates and normals there are, as far as 32 bits can tell.
+    /// Numbers of positions, texture coordinates and normals, capped at 32 bits.
     fn counts(&self) -> [i64; 3] {
         [self.positions.len(), self.uvs.len(), self.normals.len()].map(|count| count.min(NONE as usize) as i64)
     }
 }
 
-/// The three indices of a corner, counted from 1, [`ABSENT`] or [`BROKEN`]. Negative ones count back from the latest. The
-/// error is a reason why the corner has no position.
+/// The three indices of a corner: counted from 1, [`ABSENT`] or [`BROKEN`]. Negative ones count back from the latest vector. The error is
+/// the reason why the corner has no position.
 fn corner(word: &str, counts: [i64; 3], line: usize, tally: &mut Tally) -> Result<[i64; 3], String> {
     let mut indices = [ABSENT; 3];
     for (kind, part) in word.split('/').enumerate() {
@@ -192,7 +192,7 @@ fn corner(word: &str, counts: [i64; 3], line: usize, tally: &mut Tally) -> Resul
     Ok(indices)
 }
 
-/// A whole number. Some exporters write it with a point.
+/// A whole number. Some exporters write it with a decimal point.
 fn index(word: &str) -> Option<i64> {
     let whole = |number: f64| (number.fract() == 0.0 && number.abs() < 1e15).then_some(number as i64);
     word.parse().ok().or_else(|| word.parse::<f64>().ok().and_then(whole))

@@ -10,18 +10,18 @@ use super::text::{MRGB, Statement, numbers, precise, shortened};
 use super::vectors::Vectors;
 use crate::scene::load::common::report::Report;
 
-/// Most keywords that are named as unknown.
+/// Most unknown keywords that get a warning.
 const MAX_UNKNOWN: usize = 16;
 
-/// A name that faces refer to a material by.
+/// A name by which faces refer to a material.
 pub(super) struct Use {
-    /// The name, and the name with what may be a comment.
+    /// The name without and with a suffix that may be a comment.
     pub names: [String; 2],
-    /// Where it stands first.
+    /// The first line with the name.
     pub line: usize,
 }
 
-/// What an OBJ file says.
+/// The content of an OBJ file.
 #[derive(Default)]
 pub(super) struct Geometry {
     pub vectors: Vectors,
@@ -29,12 +29,12 @@ pub(super) struct Geometry {
     pub faces: Faces,
     /// Names of objects and groups.
     pub groups: Names,
-    /// What `usemtl` statements name, by the number that parts have.
+    /// The names in `usemtl` statements, by their numbers in parts.
     pub uses: Vec<Use>,
-    /// Names of the `mtllib` statements, with and without what may be a comment, and their lines.
+    /// The names in `mtllib` statements, without and with a suffix that may be a comment, and their lines.
     pub libraries: Vec<([String; 2], usize)>,
     pub tally: Tally,
-    /// How many statements are of this format.
+    /// Number of statements that belong to this format.
     pub known: usize,
     use_numbers: HashMap<String, u32>,
     smoothing_groups: Names,
@@ -43,12 +43,12 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// Takes in one statement.
+    /// Adds one statement.
     pub fn statement(&mut self, statement: Statement<'_>, report: &mut Report) {
         let Statement { line, keyword, arguments, whole } = statement;
         let values = values(arguments);
         self.known += 1;
-        // Most lines are these; the case of letters is looked at last.
+        // Most lines are these. Keywords in another case come last.
         match keyword {
             "v" => return self.position(line, values),
             "vt" => return self.uv(line, values),
@@ -94,7 +94,7 @@ impl Geometry {
             self.tally.add(Defect::Position, line, reason);
             [f32::NAN; 3]
         });
-        // A fourth number is a weight, which only curves use. From a fifth on they are a colour.
+        // A fourth number alone is a weight, which only curves use. Five or more numbers end with a colour.
         let mut more = values.split_ascii_whitespace().skip(3);
         if let (Some(first), Some(second)) = (more.next(), more.next()) {
             let words = [first, second].into_iter().chain(more);
@@ -150,7 +150,7 @@ impl Geometry {
     fn smoothing_group(&mut self, name: &str) -> u32 {
         match name.to_ascii_lowercase().as_str() {
             "" | "off" | "0" | "null" | "none" | "false" => 0,
-            // Any number, however large, and `on`.
+            // A number of any size, or `on`.
             name => self.smoothing_groups.number(name),
         }
     }
@@ -172,8 +172,8 @@ impl Geometry {
 }
 
 impl Vectors {
-    /// A place as it is stored. The first place of a file decides where all count from, so that copies of a model have the same
-    /// numbers wherever they stand: from a whole multiple of 256 near it, or 0 where it is nearer than 1024.
+    /// A position as it is stored, relative to an origin that the first position of the file decides: a whole multiple of 256 near it, or
+    /// 0 if it is nearer than 1024. Copies of a model therefore have the same numbers wherever they are.
     fn relative(&mut self, place: [f64; 3]) -> [f32; 3] {
         let near = |x: f64| if x.abs() < 1024.0 { 0.0 } else { ((x / 256.0).round() * 256.0) as f32 };
         let offset = *self.offset.get_or_insert(place.map(near));
@@ -181,7 +181,7 @@ impl Vectors {
     }
 }
 
-/// The three coordinates of a place. The error is a reason.
+/// The three coordinates of a position. The error is a reason.
 fn place(values: &str, commas: &mut bool) -> Result<[f64; 3], String> {
     let mut words = values.split_ascii_whitespace();
     let mut place = [0.0; 3];
@@ -192,7 +192,7 @@ fn place(values: &str, commas: &mut bool) -> Result<[f64; 3], String> {
     Ok(place)
 }
 
-/// Arguments without a comment that follows right after a number. `1.#QNAN` is no comment.
+/// Arguments without a comment directly after a number. `1.#QNAN` is no comment.
 fn values(arguments: &str) -> &str {
     let mut signs = arguments.match_indices('#').map(|(at, _)| arguments.get(..at).unwrap_or(""));
     signs.find(|before| !before.ends_with('.')).unwrap_or(arguments)

@@ -1,4 +1,4 @@
-//! Material libraries: which files, and the materials in them by name.
+//! Material libraries: the files, and the materials in them by name.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -17,17 +17,17 @@ use crate::scene::load::common::report::Report;
 #[derive(Default)]
 pub(super) struct Library {
     pub materials: Vec<Material>,
-    /// Whole names, also those with what may be a comment.
+    /// Whole names, including a suffix that may be a comment.
     names: HashMap<String, usize>,
-    /// Names without what may be a comment, where no whole name is the same.
+    /// Names without a suffix that may be a comment, unless a whole name is the same.
     short_names: HashMap<String, usize>,
     lower_names: HashMap<String, usize>,
-    /// Whether a library is missing, so that its materials need no warnings of their own.
+    /// True if a library is missing, so that its materials need no warnings of their own.
     incomplete: bool,
 }
 
 impl Library {
-    /// Reads the libraries that an OBJ file at `path` names.
+    /// Reads the libraries of the OBJ file at `path`.
     pub fn read(
         geometry: &Geometry,
         path: &Path,
@@ -79,7 +79,7 @@ impl Library {
         self.materials.push(material);
     }
 
-    /// The material that a `usemtl` statement names. Where there is none, a warning says so.
+    /// The material that a `usemtl` statement names. `None`, with a warning, if there is no such material.
     pub fn find(&self, used: &Use, report: &mut Report) -> Option<usize> {
         let [short, whole] = &used.names;
         let exact = self.names.get(whole).or_else(|| self.names.get(short)).or_else(|| self.short_names.get(short));
@@ -101,7 +101,7 @@ impl Library {
     }
 }
 
-/// The library files, each once, and whether all were found.
+/// The library files, each once, and true if all were found.
 fn locate(statements: &[([String; 2], usize)], folder: &Folder<'_>, report: &mut Report) -> (Vec<PathBuf>, bool) {
     let mut complete = true;
     let mut paths = Vec::new();
@@ -116,7 +116,7 @@ fn locate(statements: &[([String; 2], usize)], folder: &Folder<'_>, report: &mut
             continue;
         }
         let element = || format!("line {line}");
-        // One name that may hold spaces, or several without. Exact names come first, which need no warning.
+        // A statement has one name that may hold spaces, or several without. Exact names come first, because they need no warning.
         let exact = |name: &str| folder.locate(name).ok().filter(|found| found.note.is_none());
         let quoted: Vec<&str> = argument.split('"').map(str::trim).filter(|name| !name.is_empty()).collect();
         let names = if quoted.len() > 1 { quoted } else { argument.split_whitespace().collect() };
@@ -150,7 +150,7 @@ fn locate(statements: &[([String; 2], usize)], folder: &Folder<'_>, report: &mut
     (paths, complete)
 }
 
-/// The library of the same name as the OBJ file, for files that name none.
+/// The library with the name of the OBJ file, for files that name none.
 fn beside(path: &Path, folder: &Folder<'_>, report: &mut Report) -> Option<PathBuf> {
     let name = path.with_extension("mtl").file_name()?.to_str()?.to_owned();
     let located = folder.locate(&name).ok().filter(|located| located.note.is_none())?;

@@ -2,7 +2,7 @@
 
 use super::text::{Statement, number};
 
-/// Which number of a texel is meant, where one is.
+/// The number of a texel that a map uses, if it uses only one.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Channel {
     /// Red, green, blue or alpha.
@@ -14,14 +14,14 @@ pub(super) enum Channel {
 /// A texture statement.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Map {
-    /// The file, and the file with what may be a comment.
+    /// The file name without and with a suffix that may be a comment.
     pub files: [String; 2],
     pub scale: [f32; 2],
     pub offset: [f32; 2],
     pub clamp: bool,
-    /// What `-imfchan` says.
+    /// The channel that `-imfchan` selects.
     pub channel: Option<Channel>,
-    /// Whether an option that changes texels (`-mm`, `-t`) is not read.
+    /// True if the statement has an option that changes texels and is not read (`-mm`, `-t`).
     pub unread: bool,
 }
 
@@ -74,7 +74,7 @@ impl Map {
         [[su, 0.0, ou], [0.0, sv, 1.0 - sv - ov]]
     }
 
-    /// Whether two maps place their images alike.
+    /// True if two maps place their images alike.
     pub fn is_placed_as(&self, other: &Self) -> bool {
         (self.scale, self.offset, self.clamp) == (other.scale, other.offset, other.clamp)
     }
@@ -92,14 +92,14 @@ fn channel(name: &str) -> Option<Channel> {
     }
 }
 
-/// Takes the first word off a text.
+/// Splits the first word off a text.
 fn word<'a>(rest: &mut &'a str) -> &'a str {
     let (first, others) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     *rest = others.trim_start();
     first
 }
 
-/// Takes one to three numbers off a text; the third is for solid textures.
+/// Splits one to three numbers off a text. The third is for solid textures.
 fn vector(rest: &mut &str, vector: &mut [f32; 2], commas: &mut bool) {
     for index in 0..3 {
         let mut after = *rest;

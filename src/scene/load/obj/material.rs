@@ -1,15 +1,15 @@
-//! Materials of MTL to ours.
+//! Conversion of MTL materials.
 //!
 //! - `Kd` is the base colour, `Ks` the reflectance at normal incidence, `Ns` the exponent of Blinn and Phong. A surface with a
 //!   black `Kd` that reflects is a metal. Models (`illum`) 0 and 1 are without highlights.
-//! - `Pr` and `Pm`, and their maps, are the metallic-roughness model of glTF, in which `Ks` has no place: a dielectric
-//!   reflects as its index of refraction (`Ni`, 1.5 without one) says. A map replaces its number, as in Blender, which writes
-//!   an unused number beside each map.
-//! - Glass (`illum` 4, 6, 7, 9) is drawn as a thin pane ([`thin_pane`]), with a warning, or with its `d` where that is below 1.
-//! - `d` is opacity: a surface covers as much of what lies behind. It wins over `Tr` = 1 − `d`, which some exporters write the other way round.
-//! - `map_d` is opacity too, texel by texel: the alpha channel of `map_Kd` where it is the same file and has one; otherwise
-//!   the luminance, or the alpha of an image of one colour; `-imfchan` wins over both. The alpha channel of `map_Kd` alone
-//!   means nothing.
+//! - `Pr` and `Pm`, and their maps, are the metallic-roughness model of glTF. `Ks` has no place there: a dielectric reflects by its index
+//!   of refraction (`Ni`, 1.5 by default). A map replaces its number, as in Blender, which writes an unused number beside each map.
+//! - Glass (`illum` 4, 6, 7, 9) is drawn as a thin pane ([`thin_pane`]), with a warning. If its `d` is below 1, that is its opacity.
+//! - `d` is opacity: the part that the surface covers of everything behind it. It takes precedence over `Tr` = 1 − `d`, which some
+//!   exporters write the other way round.
+//! - `map_d` is opacity for each texel. If it is the same file as `map_Kd` and that has an alpha channel, it is this channel. Otherwise it
+//!   is the luminance, or the alpha of an image of one colour. `-imfchan` takes precedence over both. The alpha channel of `map_Kd`
+//!   alone has no meaning.
 
 use super::map::{Channel, Map};
 use super::source::{Source, Texture as Kind};
@@ -22,22 +22,22 @@ use crate::scene::load::common::report::Report;
 /// Index of refraction of most dielectrics.
 const GLASS: f32 = 1.5;
 
-/// What faces without a known material look like: grey, or white where their vertices have colours.
+/// The material of faces without a known one: grey, or white if their vertices have colours.
 pub(super) fn default(colored: bool) -> Material {
     let [r, g, b] = if colored { [1.0; 3] } else { [0.8; 3] };
     Material { name: "default".into(), base_color: [r, g, b, 1.0], double_sided: true, ..Material::default() }
 }
 
-/// What kind of surface `illum` says.
+/// The kind of surface that `illum` selects.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Model {
     Matte,
     Glossy,
-    /// With its number in the file.
+    /// Glass, with its number in the file.
     Glass(u8),
 }
 
-/// What an opacity means for the surface.
+/// The meaning of an opacity for the surface.
 struct Opacity {
     /// Alpha of the base colour.
     factor: f32,
@@ -46,7 +46,7 @@ struct Opacity {
 }
 
 impl Source {
-    /// The material, with all that is not read of it as warnings.
+    /// The material, with warnings about all parts that are not read.
     pub fn convert(&self, textures: &mut Textures<'_>, file: &str, report: &mut Report) -> Material {
         let [name, _] = &self.names;
         let element = &format!("{file} material \"{}\"", shortened(name));
@@ -73,7 +73,7 @@ impl Source {
             _ if physical || matches!(model, Model::Glass(_)) => [self.normal_reflectance(); 3],
             _ if model == Model::Matte => [0.0; 3],
             Some(specular) => unit_color(specular, element, report),
-            // A map on its own means that it is shown as it is.
+            // A map without a number is shown unchanged.
             None => [if specular_map.is_some() { 1.0 } else { 0.0 }; 3],
         };
         if physical && specular_map.is_some() {
@@ -111,7 +111,7 @@ impl Source {
             emissive,
             emissive_texture,
             alpha: opacity.alpha,
-            // Windings in OBJ files are not to be relied on.
+            // The windings of OBJ files are unreliable.
             double_sided: true,
             specular: if metal { [0.0; 3] } else { specular },
             specular_color_texture: specular_map.filter(|_| !metal).map(|(raw, map)| textures.plain(raw, map)),
@@ -145,13 +145,13 @@ impl Source {
         }
     }
 
-    /// Of a dielectric at normal incidence.
+    /// Reflectance of a dielectric at normal incidence.
     fn normal_reflectance(&self) -> f32 {
         let index = self.refraction.filter(|index| *index > 1.0 && *index <= 4.0).unwrap_or(GLASS);
         ((index - 1.0) / (index + 1.0)).powi(2)
     }
 
-    /// How opacity is used: the one place that decides it.
+    /// The use of opacity. Nothing else decides it.
     fn opacity(
         &self,
         color: Option<(Raw, &Map)>,
@@ -234,7 +234,7 @@ fn surface(
         if !map.is_placed_as(place) {
             report.warn(element, "map_Pm is placed otherwise than map_Pr; it is drawn in the place of map_Pr");
         }
-        // One file for both that is not grey holds them as glTF does.
+        // If both are one file that is not grey, it holds them as glTF does.
         if one == other && place.channel.is_none() && map.channel.is_none() && !textures.is_grey(one) {
             return Some(textures.plain(one, place));
         }
@@ -250,7 +250,7 @@ fn strongest(color: [f32; 3]) -> f32 {
     color.into_iter().fold(0.0, f32::max)
 }
 
-/// A colour brought into 0…1, with one warning where that changes it visibly.
+/// A colour clamped to 0…1, with one warning if that changes it visibly.
 fn unit_color(color: [f32; 3], element: &str, report: &mut Report) -> [f32; 3] {
     let clamped = color.map(|x| x.clamp(0.0, 1.0));
     if std::iter::zip(color, clamped).any(|(a, b)| (a - b).abs() > 1e-4) {
@@ -259,7 +259,7 @@ fn unit_color(color: [f32; 3], element: &str, report: &mut Report) -> [f32; 3] {
     clamped
 }
 
-/// Perceptual roughness of the GGX lobe that is as wide as a Blinn-Phong lobe of that exponent.
+/// Perceptual roughness of a GGX lobe as wide as the Blinn-Phong lobe of this exponent.
 fn roughness(shininess: f32) -> f32 {
     let alpha = (2.0 / (shininess.max(0.0) + 2.0)).sqrt();
     alpha.sqrt()

@@ -1,14 +1,15 @@
 //! Wavefront OBJ with MTL materials.
 //!
-//! A file is refused only if none of its faces can be drawn. Everything else that is broken costs itself, and one warning for
-//! each kind of defect ([`tally`]) names the first line and counts the others:
+//! A file is refused only if none of its faces can be drawn. Any other broken element is lost alone. One warning for each kind of defect
+//! ([`tally`]) names the first line and counts the others.
 //!
-//! - a position that cannot be read, and an index of a position that does not exist, the faces that use them;
-//! - a normal that cannot be read, has no direction or does not exist, itself: the corner gets what it would have without
-//!   normals ([`smoothing`]);
-//! - texture coordinates that cannot be read or do not exist, themselves: 0 stands for them.
+//! | broken | lost |
+//! |---|---|
+//! | a position that cannot be read, the index of a position that does not exist | the faces that use it |
+//! | a normal that cannot be read, has no direction or does not exist | the normal: the corner gets the one that it would have without normals ([`smoothing`]) |
+//! | texture coordinates that cannot be read or do not exist | the coordinates: 0 replaces them |
 //!
-//! Faces may use vectors that stand further down. Keywords may be in any case, numbers have a decimal comma, lines end with CR.
+//! Faces may use vectors of later lines. Keywords may be in any case, numbers may have a decimal comma, and lines may end with CR.
 
 mod assemble;
 mod color;
@@ -121,13 +122,13 @@ fn read_geometry(files: Files<'_>, path: &Path, report: &mut Report) -> Result<G
 }
 
 impl Geometry {
-    /// Whether there are faces, and none of them can be drawn.
+    /// True if there are faces, but none of them can be drawn.
     fn is_lost(&self) -> bool {
         self.faces.count > 0 && self.faces.parts.parts.iter().all(|part| part.triangles.is_empty())
     }
 }
 
-/// Says what a material needs that the mesh has not got, and what the mesh has that the material does not use.
+/// Warns about data that a material needs and the mesh lacks, and about data of the mesh that the material does not use.
 fn warn_unmet(material: &Material, mesh: &Mesh, report: &mut Report) {
     let element = format!("object \"{}\"", text::shortened(&mesh.name));
     if mesh.uvs[0].is_empty() && material.textures().next().is_some() {

@@ -2,18 +2,18 @@
 
 use std::collections::HashMap;
 
-/// Stands for an index that a corner does not have.
+/// The index of an attribute that a corner lacks.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Indices of the position, the texture coordinates and the normal of a corner, counted from 0, or [`NONE`].
 pub(super) type Corner = [u32; 3];
 
-/// The statements that count for the faces after them.
+/// The statements that apply to the faces after them.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
 pub(super) struct Context {
-    /// Number of the name that the last `o` or `g` gave, 0 for none.
+    /// Number of the name in the last `o` or `g`, 0 for none.
     pub group: u32,
-    /// Number of the name that the last `usemtl` gave.
+    /// Number of the name in the last `usemtl`.
     pub material: Option<u32>,
     /// Smoothing group, 0 for none.
     pub smoothing: u32,
@@ -24,16 +24,16 @@ pub(super) struct Context {
 pub(super) struct Part {
     pub group: u32,
     pub material: Option<u32>,
-    /// Whether corners have texture coordinates.
+    /// True if corners have texture coordinates.
     pub uvs: bool,
-    /// Whether corners have normals, or are to get some.
+    /// True if corners have normals or will get some.
     pub normals: bool,
     pub triangles: Vec<[Corner; 3]>,
-    /// The smoothing group of each triangle, where `normals`.
+    /// The smoothing group of each triangle, if `normals`.
     pub smoothing: Vec<u32>,
 }
 
-/// All parts: a file may switch between names and materials for every face, and still has one part for each pair.
+/// All parts. A file may switch between names and materials for every face, and still has one part for each pair.
 #[derive(Default)]
 pub(super) struct Parts {
     pub parts: Vec<Part>,
@@ -45,7 +45,7 @@ pub(super) struct Parts {
 type Key = (u32, Option<u32>, bool, bool);
 
 impl Parts {
-    /// The part for faces with these properties.
+    /// The part of faces with these properties.
     pub fn get(&mut self, context: Context, uvs: bool, normals: bool) -> &mut Part {
         let Context { group, material, .. } = context;
         let key = (group, material, uvs, normals);

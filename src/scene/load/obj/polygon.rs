@@ -1,38 +1,38 @@
-//! Polygons to triangles.
+//! Conversion of polygons to triangles.
 //!
-//! - Corners at the place of the corner before count once; the last one is before the first.
-//! - A quad is split along the diagonal that lies inside. Where both do, also in a quad that is not planar, it is the shorter
-//!   one, and from the first corner where they are of the same length.
-//! - Larger polygons are clipped ear by ear (`earcut`), seen along their own normal (Newell's sum over all edges), whatever
-//!   their first corner.
-//! - Edges that cross bound no area that could be told without new corners. What the clipping makes of such a polygon is
-//!   drawn (of more than [`MANY_CORNERS`] corners, a fan), and the caller warns.
+//! - Successive corners at the same place count once; the last corner precedes the first.
+//! - A quad is split along the diagonal that lies inside. If both do, also in a quad that is not planar, it is split along the shorter
+//!   one, or from the first corner if both have the same length.
+//! - Larger polygons are clipped ear by ear (`earcut`), as seen along their own normal (Newell's sum over all edges), whatever their
+//!   first corner.
+//! - Edges that cross bound no area that could be found without new corners. The triangles that the clipping makes of such a polygon
+//!   are drawn (a fan for more than [`MANY_CORNERS`] corners), and the caller warns.
 //!
-//! All of that happens in `f64`, relative to the first corner: a polygon far from the origin has all the digits of its
-//! positions. Seen along a coordinate axis, a polygon keeps them too, so that corners on one line stay on it.
+//! All computations are in `f64` relative to the first corner, so that a polygon far from the origin keeps all the digits of its
+//! positions. The view along a coordinate axis keeps them too, so that corners on one line stay on it.
 
 use earcut::Earcut;
 use glam::DVec3;
 
 use super::ring::{cross, insert_left_out, is_convex, is_tangled};
 
-/// Larger polygons are looked at before they are clipped.
+/// Polygons with more corners are examined before they are clipped.
 const MANY_CORNERS: usize = 256;
-/// Most corners of a polygon that is clipped: the time grows with the square of them if it winds like a spiral.
+/// Most corners of a polygon that is clipped. For one that winds like a spiral, the time grows with their square.
 const MAX_CORNERS: usize = 1 << 17;
-/// Areas below this part of a polygon's own are rounding errors.
+/// Areas below this fraction of a polygon's own are rounding errors.
 const NEGLIGIBLE: f64 = 1e-6;
 
-/// What became of a polygon.
+/// The result for a polygon.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Outcome {
-    /// Its triangles cover it.
+    /// The triangles cover the polygon.
     Covered,
-    /// Its edges cross; its triangles cover something like it.
+    /// Edges cross, so that the triangles cover it only roughly.
     Crossing,
-    /// It has no area, and there are no triangles.
+    /// The polygon has no area, and there are no triangles.
     Flat,
-    /// It is neither convex nor small enough to be clipped; its triangles are a fan.
+    /// The polygon is neither convex nor small enough to be clipped. The triangles are a fan.
     Huge,
 }
 
@@ -91,13 +91,13 @@ impl Triangulator {
         }
     }
 
-    /// Puts the triangles between the first corner and each edge into `clipped`.
+    /// Writes the triangles between the first corner and each edge to `clipped`.
     fn fan(&mut self, corners: usize) {
         self.clipped.clear();
         self.clipped.extend((2..corners as u32).flat_map(|corner| [0, corner - 1, corner]));
     }
 
-    /// Clips a polygon in the plane into `clipped`. Returns whether the triangles cover its area.
+    /// Clips a polygon in the plane into `clipped`. Returns true if the triangles cover its area.
     fn clip(&mut self, ring: &[[f64; 2]]) -> bool {
         self.clipped.clear();
         self.earcut.earcut(ring.iter().copied(), &[], &mut self.clipped);
@@ -120,7 +120,7 @@ impl Triangulator {
     }
 }
 
-/// The numbers and places of the corners that are not where the one before is, relative to the first.
+/// The numbers and places of the corners that differ in place from the corner before, relative to the first.
 fn distinct(corners: &[[f32; 3]]) -> (Vec<u32>, Vec<DVec3>) {
     let mut before = None;
     let mut kept: Vec<(u32, &[f32; 3])> =
@@ -133,10 +133,10 @@ fn distinct(corners: &[[f32; 3]]) -> (Vec<u32>, Vec<DVec3>) {
     kept.into_iter().map(|(number, corner)| (number, place(corner) - first)).unzip()
 }
 
-/// Twice the vector area of a polygon, and whether it says where the front is. Where it cancels out, as that of a bow tie
-/// does, the largest part of it stands for it. `None` if there is no area but that of rounding errors.
+/// Twice the vector area of a polygon, and true if that tells the front. If the area cancels out, as in a bow tie, its largest part
+/// replaces it. `None` if there is no area beyond rounding errors.
 fn normal(ring: &[DVec3]) -> Option<(DVec3, bool)> {
-    /// Part of the square of its length that a line of `f32` positions has as an area.
+    /// The area that a line of `f32` positions may have, as a fraction of its squared length.
     const LINE: f64 = 1e-7;
     let parts = || ring.array_windows::<2>().map(|[a, b]| a.cross(*b));
     let sum: DVec3 = parts().sum();
@@ -152,7 +152,7 @@ fn normal(ring: &[DVec3]) -> Option<(DVec3, bool)> {
     Some((largest, false))
 }
 
-/// Drops the coordinate along which the plane is seen most squarely. The front turns counter-clockwise.
+/// Drops the coordinate along which the plane is seen most squarely. The front is counter-clockwise.
 fn seen_along(normal: DVec3, corner: DVec3) -> [f64; 2] {
     let size = normal.abs();
     let [u, v, facing] = if size.z >= size.x && size.z >= size.y {
@@ -171,7 +171,7 @@ fn split_quad(quad: [DVec3; 4]) -> Option<([[usize; 3]; 2], Outcome)> {
     const FROM_SECOND: [[usize; 3]; 2] = [[1, 2, 3], [1, 3, 0]];
     let [a, b, c, d] = quad;
     let (normal, _) = normal(&quad)?;
-    // The smaller triangle on either side of each diagonal; behind the front it is negative.
+    // The smaller triangle on either side of each diagonal. Facing away from the front, its area is negative.
     let smaller = |halves: [[usize; 3]; 2]| {
         let area = |triangle: [usize; 3]| {
             let [a, b, c] = triangle.map(|at| quad.get(at).copied().unwrap_or_default());

@@ -7,28 +7,28 @@ pub(super) fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Whether a polygon of many corners is convex, and so a fan.
+/// True if a polygon of many corners is convex, and so can be a fan.
 pub(super) fn is_convex(ring: &[[f64; 2]]) -> bool {
     let Some(&first) = ring.first() else { return false };
     let next = ring.iter().cycle();
     let corners = ring.iter().zip(next.clone().skip(1)).zip(next.skip(2));
-    // All turns are to the left, and so are all triangles of the fan, and no place comes twice: there is just one round.
+    // All turns and all triangles of the fan are to the left, and no place occurs twice, so there is just one round.
     places(ring) == ring.len()
         && corners.into_iter().all(|((&a, &b), &c)| cross(a, b, c) >= 0.0)
         && ring.array_windows::<2>().all(|&[a, b]| cross(first, a, b) >= 0.0)
 }
 
-/// Whether a polygon of many corners is surely no simple one. Clipping ears would take very long to find that out.
+/// True if a polygon of many corners is surely not simple. Clipping ears would take very long to find that out.
 pub(super) fn is_tangled(ring: &[[f64; 2]]) -> bool {
     places(ring) * 2 < ring.len() || has_crossing(ring)
 }
 
-/// How many different places the corners have.
+/// Number of different places of the corners.
 fn places(ring: &[[f64; 2]]) -> usize {
     ring.iter().map(|corner| corner.map(f64::to_bits)).collect::<HashSet<_>>().len()
 }
 
-/// Looks for edges that cross, in a sweep along the first coordinate that ends after some time.
+/// Searches for crossing edges in a sweep along the first coordinate, which ends after some time.
 fn has_crossing(ring: &[[f64; 2]]) -> bool {
     const TESTS_PER_EDGE: usize = 64;
     let mut left = ring.len() * TESTS_PER_EDGE;
@@ -50,13 +50,13 @@ fn has_crossing(ring: &[[f64; 2]]) -> bool {
     false
 }
 
-/// Whether two edges cross at a point that is an end of neither.
+/// True if two edges cross at a point that is an end of neither.
 fn cross_each_other([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     cross(a, b, c) * cross(a, b, d) < 0.0 && cross(c, d, a) * cross(c, d, b) < 0.0
 }
 
-/// Puts corners that `earcut` leaves out, because they lie on an edge, back into the triangle at that edge: neighbours
-/// may have a corner there, and texture coordinates of its own stand there.
+/// Restores corners that `earcut` leaves out because they lie on an edge, in the triangle at that edge. Neighbours may have a corner
+/// there, and the corner may have texture coordinates of its own.
 pub(super) fn insert_left_out(ring: &[[f64; 2]], triangles: &mut Vec<u32>) {
     let mut used = vec![false; ring.len()];
     for &corner in triangles.iter() {
@@ -95,7 +95,7 @@ pub(super) fn insert_left_out(ring: &[[f64; 2]], triangles: &mut Vec<u32>) {
     }
 }
 
-/// Whether the corners between two lie between them, one after the other.
+/// True if the corners between two lie between them in order.
 fn in_order(ring: &[[f64; 2]], from: u32, run: &[u32], to: u32) -> bool {
     let place = |at: u32| ring.get(at as usize).copied().unwrap_or_default();
     let [a, b] = [place(from), place(to)];

@@ -1,13 +1,13 @@
-//! Normals that a file leaves to its reader.
+//! Normals that a file leaves to the reader.
 //!
-//! Where faces of one smoothing group share a vertex (its index, as the format says, and across materials and names), its
-//! normal at the corner of a face is the mean over the faces that meet this one at less than [`SPLIT`], each weighted with
-//! its angle at the vertex, so that it does not matter how polygons were cut into triangles (Thürmer and Wüthrich, "Computing
-//! vertex normals from polygonal facets", Journal of Graphics Tools 3 (1), 1998).
+//! Faces of one smoothing group share a vertex if they share its index, as the format says, also across materials and names. The normal
+//! at the corner of a face is the mean over the faces there that meet this one at less than [`SPLIT`]. Each is weighted by its angle
+//! at the vertex, so that the division of polygons into triangles does not matter (Thürmer and Wüthrich, "Computing vertex normals
+//! from polygonal facets", Journal of Graphics Tools 3 (1), 1998).
 //!
-//! The format has no such angle, and three.js and Blender take none. But many exporters put whole models into one group, of
-//! which boxes would look like pillows. 80° is what Assimp's viewer takes. A cube keeps its edges, a prism of five or more
-//! sides is round.
+//! The format has no such angle, and three.js and Blender use none. Many exporters, however, put whole models into one group, and
+//! without the angle boxes in them would look like pillows. Assimp's viewer uses 80° too. A cube keeps its edges, and a prism of five
+//! or more sides is round.
 
 use glam::DVec3;
 
@@ -16,12 +16,12 @@ use crate::scene::load::common::report::Fault;
 
 /// Cosine of 80°: faces that meet at a larger angle have an edge between them.
 const SPLIT: f64 = 0.173_648_177_666_930_35;
-/// At a vertex with more faces than this, all of a group count. Comparing each with each would take too long.
+/// Most faces at a vertex that are compared with each other. With more, which would take too long, all faces of a group count.
 const MAX_COMPARED: usize = 128;
 
 /// A corner of a face at a vertex.
 struct Around {
-    /// Counted over all parts.
+    /// Number, counted over all parts.
     corner: u32,
     group: u32,
     /// Unit normal of the triangle, or 0 if it has no area.
@@ -30,8 +30,8 @@ struct Around {
     angle: f64,
 }
 
-/// Gives normals to all corners of `parts` that are to have some and have none; they are appended to `normals`. Corners of
-/// faces without a smoothing group get the normal of their triangle.
+/// Appends normals to `normals` for all corners of `parts` that need one and have none. Corners of faces without a smoothing group get the
+/// normal of their triangle.
 pub(super) fn fill(parts: &mut [Part], positions: &[[f32; 3]], normals: &mut Vec<[f32; 3]>) -> Result<(), Fault> {
     let too_many = || Fault::new("faces", "there are more than 2³² corners");
     let mut firsts = Vec::with_capacity(parts.len());
@@ -94,7 +94,7 @@ impl Open {
             sum += *start;
             *start = sum;
         }
-        // Each start is at its end now, and is counted down; so the last corners come first.
+        // Each start is at its end now and is counted down, so the last corners come first.
         let mut corners = vec![0; sum as usize];
         for (number, vertex) in open() {
             starts[vertex] -= 1;
@@ -104,9 +104,9 @@ impl Open {
     }
 }
 
-/// The part and the triangle of a corner, and which of its three it is.
+/// The part and the triangle of a corner, and its number in the triangle.
 fn place(corner: u32, firsts: &[u32]) -> (usize, usize, usize) {
-    // Of parts that start at the same corner, all but the last have none.
+    // Among parts that start at the same corner, all but the last are empty.
     let part = firsts.partition_point(|&first| first <= corner) - 1;
     let within = (corner - firsts[part]) as usize;
     (part, within / 3, within % 3)

@@ -9,7 +9,7 @@ use crate::scene::load::common::report::Report;
 /// A material as its library describes it.
 #[derive(Default)]
 pub(super) struct Source {
-    /// The name, and the name with what may be a comment.
+    /// The name without and with a suffix that may be a comment.
     pub names: [String; 2],
     pub diffuse: Option<[f32; 3]>,
     pub specular: Option<[f32; 3]>,
@@ -28,7 +28,7 @@ pub(super) struct Source {
     pub maps: HashMap<Texture, Map>,
 }
 
-/// The statements of textures that are read.
+/// The texture statements that are read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Texture {
     Diffuse,
@@ -64,7 +64,7 @@ struct Reader<'a> {
     file: &'a str,
     /// The first line with a decimal comma.
     commas: Option<usize>,
-    /// How many unknown keywords were met.
+    /// Number of unknown keywords.
     unknown: usize,
 }
 
@@ -89,9 +89,9 @@ impl Reader<'_> {
         }
     }
 
-    /// Says once for each keyword what is not read of it.
+    /// Warns once for each keyword about the part of it that is not read.
     fn unread(&mut self, keyword: &str, statement: Statement<'_>, report: &mut Report) {
-        /// Most keywords that are named as unknown.
+        /// Most unknown keywords that get a warning.
         const MAX_UNKNOWN: usize = 16;
         let element = self.element(statement.line);
         let named = shortened(statement.keyword);
@@ -119,7 +119,7 @@ impl Reader<'_> {
 }
 
 impl Source {
-    /// Takes in a statement. `false` if it is not read.
+    /// Adds a statement. Returns false if it is not read.
     fn set(&mut self, keyword: &str, statement: Statement<'_>, commas: &mut bool) -> Result<bool, String> {
         let values = statement.arguments;
         let mut map = |texture: Texture, commas: &mut bool| {
@@ -144,7 +144,7 @@ impl Source {
             "map_d" => map(Texture::Opacity, commas)?,
             "map_pr" => map(Texture::Roughness, commas)?,
             "map_pm" => map(Texture::Metallic, commas)?,
-            // Ambient light is what the path tracer finds out. The others tell how to filter, or qualify what is not read.
+            // The path tracer computes ambient light itself. The others are about filtering, or about statements that are not read.
             "ka" | "map_ka" | "sharpness" | "map_aat" | "pcr" | "anisor" => {}
             // Exporters write these for all materials; 0 says that there is none.
             "ps" | "pc" | "aniso" => return Ok(one(values, commas)? == 0.0),

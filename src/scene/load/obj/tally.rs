@@ -1,4 +1,4 @@
-//! Defects of geometry, counted: a file may have the same one in a million lines, of which one warning is enough.
+//! Counts of geometry defects. A file may have the same defect in a million lines, and one warning is enough for all.
 
 use crate::scene::load::common::report::{Fault, Report};
 
@@ -17,15 +17,15 @@ pub(super) enum Defect {
     HugeFace,
     /// A corner of more than three indices.
     ExtraIndex,
-    /// A face of which only some corners have texture coordinates or normals.
+    /// A face with texture coordinates or normals at some corners only.
     PartialFace,
     /// The index of texture coordinates.
     UvIndex,
     /// The index of a normal.
     NormalIndex,
-    /// A position that is no three finite numbers.
+    /// A position that is not three finite numbers.
     Position,
-    /// Texture coordinates that are no finite numbers.
+    /// Texture coordinates that are not finite numbers.
     Uv,
     /// A normal without direction.
     Normal,
@@ -38,7 +38,7 @@ pub(super) enum Defect {
 }
 
 impl Defect {
-    /// What has the defect, in the plural.
+    /// The elements with the defect, in the plural.
     fn noun(self) -> &'static str {
         match self {
             Self::FaceIndex | Self::ShortFace | Self::FlatFace => "faces",
@@ -51,7 +51,7 @@ impl Defect {
         }
     }
 
-    /// Whether the face is lost.
+    /// True if the face is lost.
     fn loses_faces(self) -> bool {
         matches!(self, Self::FaceIndex | Self::ShortFace | Self::FlatFace | Self::Position)
     }
@@ -64,12 +64,12 @@ struct Entry {
     count: usize,
 }
 
-/// The defects of a file in the order in which they were met first.
+/// The defects of a file, in the order of their first lines.
 #[derive(Default)]
 pub(super) struct Tally(Vec<Entry>);
 
 impl Tally {
-    /// Counts a defect. Only the first of a kind gives its line and its reason.
+    /// Counts a defect. The first of a kind gives the line and the reason.
     pub fn add(&mut self, defect: Defect, line: usize, reason: impl FnOnce() -> String) {
         match self.0.iter_mut().find(|entry| entry.defect == defect) {
             Some(entry) => entry.count += 1,
@@ -87,7 +87,7 @@ impl Tally {
         }
     }
 
-    /// Why no face is left: the first defect that loses faces.
+    /// The reason why no face is left: the first defect that loses faces.
     pub fn fault(&self) -> Option<Fault> {
         let lost = self.0.iter().find(|entry| entry.defect.loses_faces())?;
         let reason = format!("{}; no face of the file can be drawn", lost.reason);

@@ -1,4 +1,4 @@
-//! Lines, statements and numbers, which OBJ and MTL have in common.
+//! Lines, statements and numbers, as OBJ and MTL have them in common.
 
 /// A statement of an OBJ or MTL file.
 #[derive(Clone, Copy)]
@@ -7,13 +7,13 @@ pub(super) struct Statement<'a> {
     pub line: usize,
     /// The first word, in the case of the file.
     pub keyword: &'a str,
-    /// The rest without its comment. A comment starts a line or follows a space, because names may contain the sign.
+    /// The rest without its comment. A comment starts a line or follows a space, because names may contain `#`.
     pub arguments: &'a str,
-    /// The rest with its comment, because `Material #25` is a name, too.
+    /// The rest with its comment, because `Material #25` is a name too.
     pub whole: &'a str,
 }
 
-/// The keyword of the comments in which ZBrush stores colours.
+/// The keyword of comments in which ZBrush stores colours.
 pub(super) const MRGB: &str = "#MRGB";
 
 /// Visits all statements, continuation lines joined. Lines end with LF, CR LF or CR.
@@ -21,7 +21,7 @@ pub(super) fn each_statement(text: &str, mut visit: impl FnMut(Statement<'_>)) {
     let mut lines = lines(text);
     let mut joined = String::new();
     while let Some((line, text)) = lines.next() {
-        // Files that were put together have byte-order marks in the middle.
+        // Concatenated files have byte-order marks in the middle.
         let whole = text.trim_start_matches('\u{FEFF}').trim();
         let statement = if whole.starts_with(MRGB) { whole } else { without_comment(whole) };
         if !continues(statement) {
@@ -40,7 +40,7 @@ pub(super) fn each_statement(text: &str, mut visit: impl FnMut(Statement<'_>)) {
     }
 }
 
-/// Whether a statement goes on in the next line. Names may end with a backslash, as paths of Windows do.
+/// True if a statement continues in the next line. Names may end with a backslash, as Windows paths do.
 fn continues(statement: &str) -> bool {
     const NAMES: [&str; 6] = ["g", "o", "usemtl", "newmtl", "mtllib", "map_"];
     let Some(before) = statement.strip_suffix('\\') else { return false };
@@ -86,12 +86,12 @@ fn without_comment(line: &str) -> &str {
     line
 }
 
-/// Reads a number that is finite in 32 bits. A decimal comma counts as a point, and is noted in `commas`. The error is a reason.
+/// Reads a number that is finite in 32 bits. A decimal comma counts as a point and is noted in `commas`. The error is a reason.
 pub(super) fn number(word: &str, commas: &mut bool) -> Result<f32, String> {
     precise(word, commas).map(|number| number as f32)
 }
 
-/// As [`number`], with all its digits.
+/// Reads a number as [`number`] does, with all its digits.
 pub(super) fn precise(word: &str, commas: &mut bool) -> Result<f64, String> {
     let number = word.parse::<f64>().or_else(|error| {
         let with_point = word.contains(',').then(|| word.replacen(',', ".", 1).parse::<f64>());
@@ -99,7 +99,7 @@ pub(super) fn precise(word: &str, commas: &mut bool) -> Result<f64, String> {
             *commas = true;
             return Ok(number);
         }
-        // As Fortran and C write numbers.
+        // Fortran and C write numbers like this.
         let is_number = word.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
         let plain = || word.trim_end_matches(['f', 'F']).replace(['D', 'd'], "e").parse::<f64>();
         if is_number { plain() } else { Err(error) }
@@ -111,7 +111,7 @@ pub(super) fn precise(word: &str, commas: &mut bool) -> Result<f64, String> {
     }
 }
 
-/// Up to `N` numbers at the start of a text, and how many there are. The error is a reason.
+/// Up to `N` numbers at the start of a text, and their count. The error is a reason.
 pub(super) fn numbers<const N: usize>(text: &str, commas: &mut bool) -> Result<([f32; N], usize), String> {
     let mut numbers = [0.0; N];
     let mut words = text.split_ascii_whitespace();
@@ -124,7 +124,7 @@ pub(super) fn numbers<const N: usize>(text: &str, commas: &mut bool) -> Result<(
     Ok((numbers, N))
 }
 
-/// The start of a text, for messages: files may hold anything, megabytes of it.
+/// The start of a text for messages, because files may hold megabytes of anything.
 pub(super) fn shortened(text: &str) -> String {
     const LENGTH: usize = 64;
     let start: String = text.chars().take(LENGTH).flat_map(char::escape_debug).collect();

@@ -1,7 +1,7 @@
-//! The images of all libraries, each read once, and those that are made of two: MTL has opacity, roughness and metalness in
-//! files of their own, a material of ours has them in the channels of one image.
+//! The images of all libraries, each read once, and images made of two. MTL has opacity, roughness and metalness in separate files, a
+//! [`Material`](crate::scene::Material) has them in the channels of one image.
 //!
-//! The larger of two images gives the size of both, and the statement of the colour (or of the roughness) their place.
+//! The larger of two images decides the size of the result. The statement of the colour (or of the roughness) decides its place.
 
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -16,20 +16,20 @@ use crate::scene::load::common::folder::{Folder, Located};
 use crate::scene::load::common::recognise::foreign;
 use crate::scene::load::common::report::Report;
 
-/// Most texels that the images of one file may have together (4 GiB).
+/// Most texels of all images of one file (4 GiB).
 const MAX_TEXELS: usize = 1 << 30;
 
 /// An image file, by its number.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Raw(usize);
 
-/// Where an image of the scene comes from.
+/// The origin of an image of the scene.
 enum Slot {
     File(usize),
     Made(Image),
 }
 
-/// How an image was made of others.
+/// The composition of an image made of others.
 #[derive(PartialEq, Eq, Hash)]
 enum Recipe {
     /// Colour, opacity.
@@ -62,7 +62,7 @@ impl<'a> Textures<'a> {
         }
     }
 
-    /// The images that textures refer to.
+    /// The images to which textures refer.
     pub fn into_images(self) -> Vec<Image> {
         let mut files: Vec<Option<Image>> = self.files.into_iter().map(Some).collect();
         let image = |slot| match slot {
@@ -72,7 +72,7 @@ impl<'a> Textures<'a> {
         self.slots.into_iter().map(image).collect()
     }
 
-    /// The image file of a statement. Where it cannot be read, a warning says so.
+    /// The image file of a statement. `None`, with a warning, if it cannot be read.
     pub fn file(&mut self, map: &Map, element: &str, report: &mut Report) -> Option<Raw> {
         let [short, whole] = &map.files;
         let with_comment = || self.folder.locate(whole).ok().filter(|found| found.note.is_none());
@@ -94,7 +94,7 @@ impl<'a> Textures<'a> {
             return known.map(Raw);
         }
         let decoded = self.folder.read(&path).and_then(|bytes| {
-            // A pointer or a page is no broken image.
+            // A Git LFS pointer or a web page is not a broken image.
             let kind = || foreign(&bytes).filter(|kind| !kind.ends_with("image"));
             decode(short, &bytes).map_err(|reason| kind().map_or(reason, str::to_owned))
         });
@@ -109,7 +109,7 @@ impl<'a> Textures<'a> {
         number.ok().map(Raw)
     }
 
-    /// An image file as it is.
+    /// An image file, unchanged.
     pub fn plain(&mut self, raw: Raw, map: &Map) -> Texture {
         let next = self.slots.len();
         let image = *self.by_file.entry(raw.0).or_insert(next);
@@ -138,7 +138,7 @@ impl<'a> Textures<'a> {
         })
     }
 
-    /// Roughness and metalness of two files in green and blue; 1 without one. The error is a reason.
+    /// Roughness and metalness of two files in green and blue. 1 replaces a missing file. The error is a reason.
     pub fn packed(&mut self, maps: [Option<(Raw, &Map, Channel)>; 2]) -> Result<Option<Texture>, String> {
         let Some((first, place, _)) = maps.into_iter().flatten().next() else { return Ok(None) };
         let recipe = Recipe::Packed(maps.map(|map| map.map(|(raw, _, channel)| (raw, channel))));
@@ -157,17 +157,17 @@ impl<'a> Textures<'a> {
         made.map(Some)
     }
 
-    /// Whether any texel is not opaque.
+    /// True if any texel is not opaque.
     pub fn has_alpha(&self, raw: Raw) -> bool {
         self.image(raw).texels.iter().any(|texel| texel[3] != 255)
     }
 
-    /// Whether red, green and blue are the same everywhere.
+    /// True if red, green and blue are equal everywhere.
     pub fn is_grey(&self, raw: Raw) -> bool {
         self.image(raw).texels.iter().all(|[r, g, b, _]| r == g && g == b)
     }
 
-    /// Whether all texels have one colour.
+    /// True if all texels have one colour.
     pub fn is_plain(&self, raw: Raw) -> bool {
         let texels = &self.image(raw).texels;
         texels.iter().all(|texel| texels.first().is_some_and(|first| texel[..3] == first[..3]))
@@ -223,10 +223,10 @@ fn size(image: &Image) -> (u32, u32) {
     (image.width, image.height)
 }
 
-/// The size of the image with more texels. The largest width with the largest height may be far more than either.
+/// The size of the image with more texels. The larger width times the larger height may be far more than either image.
 fn larger(a: Option<(u32, u32)>, b: Option<(u32, u32)>) -> [u32; 2] {
     let texels = |&(width, height): &(u32, u32)| u64::from(width) * u64::from(height);
-    // Of equals, the first.
+    // Among equals, the first.
     let (width, height) = [b, a].into_iter().flatten().max_by_key(texels).unwrap_or((1, 1));
     [width, height]
 }

@@ -1,14 +1,15 @@
 //! The numbered vectors of an OBJ file.
 
-/// The vectors of a file, by the number that faces give them.
+/// The vectors of a file, by their numbers in faces.
 #[derive(Default)]
 pub(super) struct Vectors {
-    /// Relative to `offset`; NaN where a statement cannot be read.
+    /// Positions relative to `offset`. NaN if the statement cannot be read.
     pub positions: Vec<[f32; 3]>,
-    /// Where positions count from, once there is one: at survey coordinates (500 000, 4 500 000) steps of f32 are as large as bricks.
+    /// Origin of positions, once there is one. Without it, steps of f32 at survey coordinates (500 000, 4 500 000) would be as large as
+    /// bricks.
     pub offset: Option<[f32; 3]>,
-    /// As in the file: v grows upwards. 0 where a statement cannot be read.
+    /// Texture coordinates as in the file, where v grows upwards. 0 if the statement cannot be read.
     pub uvs: Vec<[f32; 2]>,
-    /// Unit vectors, or 0 where a statement cannot be read.
+    /// Unit normals, or 0 if the statement cannot be read.
     pub normals: Vec<[f32; 3]>,
 }
