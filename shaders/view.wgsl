@@ -1,116 +1,12 @@
 // Shows one intermediate image: as numbers in a float target, as a picture in an rgba8unorm one.
+//
+// Each view is one block. It declares the images that it reads, `value`, which returns the numbers, and `picture`, which
+// turns these into colours.
 
 #import asvgf::frame::{frame, inside, project, sample_point, seen_position}
 #import asvgf::color::{is_finite, luminance}
 #import asvgf::packing::{unpack_rgb, unpack_motion, unpack_normal}
 #import asvgf::random::hash
-#if VIEW == 0
-#import asvgf::history::filtered_color
-#endif
-#if VIEW >= 10
-#if VIEW <= 11
-#import asvgf::history::{history_length, history_variance}
-#endif
-#endif
-#if VIEW == 12
-#import asvgf::history::filtered_color
-#endif
-#if VIEW >= 17
-#if VIEW <= 18
-#import asvgf::strata::{is_sample_pixel, place_now, place_before, stratum_of}
-#endif
-#endif
-
-#if VIEW == 0
-// Denoised.
-@group(0) @binding(1) var color: texture_2d<u32>;
-#ifdef BACKGROUND
-@group(0) @binding(2) var radiance: texture_2d<u32>;
-@group(0) @binding(5) var guide: texture_2d<u32>;
-#endif
-#endif
-#if VIEW == 1
-// Noisy.
-@group(0) @binding(2) var radiance: texture_2d<u32>;
-#endif
-#if VIEW <= 2
-#ifdef ALBEDO
-// Albedo, and what the two above are multiplied with.
-@group(0) @binding(3) var albedo: texture_2d<f32>;
-#endif
-#endif
-#if VIEW <= 1
-#ifdef DIRECT_EMISSION
-@group(0) @binding(4) var emission: texture_2d<u32>;
-#endif
-#endif
-#if VIEW == 3
-@group(0) @binding(5) var guide: texture_2d<u32>;
-#endif
-#if VIEW == 4
-@group(0) @binding(5) var guide: texture_2d<u32>;
-#endif
-#if VIEW == 5
-@group(0) @binding(6) var visibility: texture_2d<u32>;
-#endif
-#if VIEW == 6
-@group(0) @binding(7) var motion: texture_2d<u32>;
-#endif
-#if VIEW == 14
-// Error of the motion.
-@group(0) @binding(5) var guide: texture_2d<u32>;
-@group(0) @binding(7) var motion: texture_2d<u32>;
-#endif
-#if VIEW == 15
-@group(0) @binding(4) var emission: texture_2d<u32>;
-#endif
-#if VIEW == 16
-@group(0) @binding(6) var object: texture_2d<u32>;
-#endif
-#if VIEW >= 17
-#if VIEW <= 18
-// The gradient's pairs: now, then before.
-@group(0) @binding(1) var samples: texture_2d<u32>;
-@group(0) @binding(2) var radiance: texture_2d<u32>;
-#ifdef ALBEDO
-@group(0) @binding(3) var albedo: texture_2d<f32>;
-#endif
-#endif
-#endif
-#if VIEW == 19
-// Sum over the samples so far, and their count.
-@group(0) @binding(1) var sum: texture_2d<f32>;
-#endif
-#if VIEW == 7
-#ifndef UNCHANGED
-// Gradient.
-@group(0) @binding(8) var gradient: texture_2d<u32>;
-#endif
-#endif
-#if VIEW >= 8
-#if VIEW <= 9
-// α and λ.
-@group(0) @binding(8) var weights: texture_2d<f32>;
-#endif
-#endif
-#if VIEW == 20
-// α, below zero where the sample is an outlier.
-@group(0) @binding(8) var weights: texture_2d<f32>;
-#endif
-#if VIEW >= 10
-#if VIEW <= 11
-// History length, variance.
-@group(0) @binding(9) var history: texture_2d<u32>;
-#endif
-#endif
-#if VIEW == 13
-// Rays.
-@group(0) @binding(3) var albedo: texture_2d<f32>;
-#endif
-#if VIEW == 12
-// Not finite.
-@group(0) @binding(1) var color: texture_2d<u32>;
-#endif
 
 #ifdef TARGET_PICTURE
 @group(0) @binding(10) var target_out: texture_storage_2d<rgba8unorm, write>;
@@ -125,14 +21,28 @@
 struct Show {
     // Factor on radiance before tone mapping.
     exposure: f32,
-    // What is shown as white: depth, pixels of motion, frames of history.
+    // The value that is shown as white: depth, pixels of motion, frames of history.
     range: f32,
 }
 
 @group(0) @binding(11) var<uniform> show: Show;
 
+#ifdef VIEW_DENOISED
+#import asvgf::history::filtered_color
+
+@group(0) @binding(1) var color: texture_2d<u32>;
+#ifdef BACKGROUND
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+@group(0) @binding(5) var guide: texture_2d<u32>;
+#endif
+#ifdef ALBEDO
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+#endif
+#ifdef DIRECT_EMISSION
+@group(0) @binding(4) var emission: texture_2d<u32>;
+#endif
+
 fn value(pixel: vec2<i32>) -> vec3<f32> {
-#if VIEW == 0
     var c = filtered_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
     if textureLoad(guide, pixel, 0).y == 0u {
@@ -146,8 +56,23 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     c += unpack_rgb(textureLoad(emission, pixel, 0).xy);
 #endif
     return c;
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return developed(v);
+}
 #endif
-#if VIEW == 1
+
+#ifdef VIEW_NOISY
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+#ifdef ALBEDO
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+#endif
+#ifdef DIRECT_EMISSION
+@group(0) @binding(4) var emission: texture_2d<u32>;
+#endif
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
     var c = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
 #ifdef ALBEDO
     c *= textureLoad(albedo, pixel, 0).xyz;
@@ -156,97 +81,299 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
     c += unpack_rgb(textureLoad(emission, pixel, 0).xy);
 #endif
     return c;
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return developed(v);
+}
 #endif
-#if VIEW == 2
+
+#ifdef VIEW_ALBEDO
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
     return textureLoad(albedo, pixel, 0).xyz;
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return linear_to_srgb(v);
+}
 #endif
-#if VIEW == 3
+
+#ifdef VIEW_NORMAL
+@group(0) @binding(5) var guide: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
     let g = textureLoad(guide, pixel, 0).xy;
     return unpack_normal(g.x);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return select(0.5 * v + 0.5, vec3(0.0), dot(v, v) == 0.0);
+}
 #endif
-#if VIEW == 4
+
+#ifdef VIEW_DEPTH
+@group(0) @binding(5) var guide: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
     return vec3(bitcast<f32>(textureLoad(guide, pixel, 0).y));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return vec3(v.x / (v.x + show.range));
+}
 #endif
-#if VIEW == 5
-    // 24 bits fit a float exactly: the low 16 and the rest.
+
+#ifdef VIEW_TRIANGLE_ID
+@group(0) @binding(6) var visibility: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    // A float holds 24 bits exactly: the low 16 and the rest.
     let id = textureLoad(visibility, pixel, 0).x;
     return vec3(f32(id & 0xffffu), f32(id >> 16u), select(1.0, 0.0, id == 0xffffffffu));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return color_of(u32(v.x) + 65536u * u32(v.y)) * v.z;
+}
 #endif
-#if VIEW == 6
+
+#ifdef VIEW_OBJECT
+@group(0) @binding(6) var object: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let id = textureLoad(object, pixel, 0).x;
+    return vec3(f32(id & 0xffffu), f32(id >> 16u), 1.0);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return color_of(u32(v.x) + 65536u * u32(v.y));
+}
+#endif
+
+#ifdef VIEW_MOTION
+@group(0) @binding(7) var motion: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
     return unpack_motion(textureLoad(motion, pixel, 0).xy);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return centred(v);
+}
 #endif
-#if VIEW == 7
-#ifdef UNCHANGED
-    return vec3(0.0);
-#else
-    let g = bitcast<vec2<f32>>(textureLoad(gradient, pixel / 3, 0).xy);
-    return vec3(clamp(abs(g.x) / max(g.y, 1e-30) - frame.dead_zone, 0.0, 1.0));
-#endif
-#endif
-#if VIEW == 8
-    return vec3(textureLoad(weights, pixel, 0).y);
-#endif
-#if VIEW == 9
-    // Below zero is the weight of an outlier.
-    return vec3(abs(textureLoad(weights, pixel, 0).x));
-#endif
-#if VIEW == 10
-    return vec3(history_length(textureLoad(history, pixel, 0).xy));
-#endif
-#if VIEW == 11
-    return vec3(history_variance(textureLoad(history, pixel, 0).xy));
-#endif
-#if VIEW == 12
-    let c = filtered_color(textureLoad(color, pixel, 0).xy);
-    let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z);
-    return vec3(select(1.0, 0.0, ok));
-#endif
-#if VIEW == 13
-    return vec3(textureLoad(albedo, pixel, 0).w);
-#endif
-#if VIEW == 14
+
+#ifdef VIEW_MOTION_ERROR
+@group(0) @binding(5) var guide: texture_2d<u32>;
+@group(0) @binding(7) var motion: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
     let depth = bitcast<f32>(textureLoad(guide, pixel, 0).y);
     let point = sample_point(frame.camera, vec2<f32>(pixel));
     let rest = project(frame.previous, seen_position(frame.camera, point, depth));
     let implied = vec3(rest.xy - point, rest.z);
     return select(vec3(0.0), unpack_motion(textureLoad(motion, pixel, 0).xy) - implied, depth > 0.0 && rest.z > 0.0);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return centred(v);
+}
 #endif
-#if VIEW == 15
+
+#ifdef VIEW_GRADIENT
+#ifdef UNCHANGED
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    return vec3(0.0);
+}
+#else
+@group(0) @binding(8) var gradient: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let g = bitcast<vec2<f32>>(textureLoad(gradient, pixel / 3, 0).xy);
+    return vec3(clamp(abs(g.x) / max(g.y, 1e-30) - frame.dead_zone, 0.0, 1.0));
+}
+#endif
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return ramp(v.x);
+}
+#endif
+
+#ifdef VIEW_LAMBDA
+@group(0) @binding(8) var weights: texture_2d<f32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    return vec3(textureLoad(weights, pixel, 0).y);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return ramp(v.x);
+}
+#endif
+
+#ifdef VIEW_ALPHA
+@group(0) @binding(8) var weights: texture_2d<f32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    // The weight of an outlier is stored below zero.
+    return vec3(abs(textureLoad(weights, pixel, 0).x));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return ramp(v.x);
+}
+#endif
+
+#ifdef VIEW_OUTLIERS
+@group(0) @binding(8) var weights: texture_2d<f32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    // The weight of an outlier is stored below zero.
+    return vec3(select(0.0, 1.0, textureLoad(weights, pixel, 0).x < 0.0));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return developed(v);
+}
+#endif
+
+#ifdef VIEW_HISTORY_LENGTH
+#import asvgf::history::history_length
+
+@group(0) @binding(9) var history: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    return vec3(history_length(textureLoad(history, pixel, 0).xy));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return ramp(v.x / show.range);
+}
+#endif
+
+#ifdef VIEW_VARIANCE
+#import asvgf::history::history_variance
+
+@group(0) @binding(9) var history: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    return vec3(history_variance(textureLoad(history, pixel, 0).xy));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return ramp(0.25 * log2(1.0 + 255.0 * sqrt(max(v.x, 0.0)) * show.exposure) / 2.0);
+}
+#endif
+
+#ifdef VIEW_NON_FINITE
+#import asvgf::history::filtered_color
+
+@group(0) @binding(1) var color: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let c = filtered_color(textureLoad(color, pixel, 0).xy);
+    let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z);
+    return vec3(select(1.0, 0.0, ok));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return vec3(v.x, 0.0, 0.0);
+}
+#endif
+
+#ifdef VIEW_RAYS
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    return vec3(textureLoad(albedo, pixel, 0).w);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return ramp(v.x / show.range);
+}
+#endif
+
+#ifdef VIEW_EMISSION
+@group(0) @binding(4) var emission: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
     return unpack_rgb(textureLoad(emission, pixel, 0).xy);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return developed(v);
+}
 #endif
-#if VIEW == 16
-    let id = textureLoad(object, pixel, 0).x;
-    return vec3(f32(id & 0xffffu), f32(id >> 16u), 1.0);
+
+#ifdef VIEW_PAIR_NOW
+#import asvgf::strata::{is_sample_pixel, place_now, stratum_of}
+
+@group(0) @binding(1) var samples: texture_2d<u32>;
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+#ifdef ALBEDO
+@group(0) @binding(3) var albedo: texture_2d<f32>;
 #endif
-#if VIEW >= 17
-#if VIEW <= 18
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
     let stratum = vec2<i32>(stratum_of(vec2<u32>(pixel)));
     let record = textureLoad(samples, stratum, 0);
     if !is_sample_pixel(record, vec2<u32>(pixel)) {
         return vec3(-1.0);
     }
-#if VIEW == 17
-    let place = place_now(record, stratum);
-#else
-    let place = place_before(record, stratum);
-#endif
-    var r = unpack_rgb(textureLoad(radiance, place, 0).xy);
+    var r = unpack_rgb(textureLoad(radiance, place_now(record, stratum), 0).xy);
 #ifdef ALBEDO
     r *= textureLoad(albedo, pixel, 0).xyz;
 #endif
     return r;
-#endif
-#endif
-#if VIEW == 20
-    return vec3(select(0.0, 1.0, textureLoad(weights, pixel, 0).x < 0.0));
-#endif
-#if VIEW == 19
-    let s = textureLoad(sum, pixel, 0);
-    return s.xyz / max(s.w, 1.0);
-#endif
 }
 
-#ifdef TARGET_PICTURE
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return developed(v);
+}
+#endif
+
+#ifdef VIEW_PAIR_BEFORE
+#import asvgf::strata::{is_sample_pixel, place_before, stratum_of}
+
+@group(0) @binding(1) var samples: texture_2d<u32>;
+@group(0) @binding(2) var radiance: texture_2d<u32>;
+#ifdef ALBEDO
+@group(0) @binding(3) var albedo: texture_2d<f32>;
+#endif
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let stratum = vec2<i32>(stratum_of(vec2<u32>(pixel)));
+    let record = textureLoad(samples, stratum, 0);
+    if !is_sample_pixel(record, vec2<u32>(pixel)) {
+        return vec3(-1.0);
+    }
+    var r = unpack_rgb(textureLoad(radiance, place_before(record, stratum), 0).xy);
+#ifdef ALBEDO
+    r *= textureLoad(albedo, pixel, 0).xyz;
+#endif
+    return r;
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return developed(v);
+}
+#endif
+
+#ifdef VIEW_MEAN
+// Sum over the samples so far, and their count.
+@group(0) @binding(1) var sum: texture_2d<f32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let s = textureLoad(sum, pixel, 0);
+    return s.xyz / max(s.w, 1.0);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return developed(v);
+}
+#endif
+
 // Khronos PBR Neutral tone mapper (2024): colours up to 0.76 stay as they are, highlights are compressed.
 fn tone_map(radiance: vec3<f32>) -> vec3<f32> {
     let start = 0.76;
@@ -284,56 +411,10 @@ fn ramp(x: f32) -> vec3<f32> {
     return clamp(vec3(1.8 * t, 2.2 * t * t * t, 1.6 * t - 2.6 * t * t + 2.0 * t * t * t), vec3(0.0), vec3(1.0));
 }
 
-fn picture(v: vec3<f32>) -> vec3<f32> {
-#if VIEW <= 1
-    return developed(v);
-#endif
-#if VIEW == 15
-    return developed(v);
-#endif
-#if VIEW >= 17
-    return developed(v);
-#endif
-#if VIEW == 2
-    return linear_to_srgb(v);
-#endif
-#if VIEW == 3
-    return select(0.5 * v + 0.5, vec3(0.0), dot(v, v) == 0.0);
-#endif
-#if VIEW == 4
-    return vec3(v.x / (v.x + show.range));
-#endif
-#if VIEW == 5
-    return color_of(u32(v.x) + 65536u * u32(v.y)) * v.z;
-#endif
-#if VIEW == 16
-    return color_of(u32(v.x) + 65536u * u32(v.y));
-#endif
-#if VIEW == 14
+// Signed components in red and green, grey at zero.
+fn centred(v: vec3<f32>) -> vec3<f32> {
     return vec3(0.5 + 0.5 * clamp(v.xy / show.range, vec2(-1.0), vec2(1.0)), 0.5);
-#endif
-#if VIEW == 6
-    return vec3(0.5 + 0.5 * clamp(v.xy / show.range, vec2(-1.0), vec2(1.0)), 0.5);
-#endif
-#if VIEW >= 7
-#if VIEW <= 9
-    return ramp(v.x);
-#endif
-#endif
-#if VIEW == 10
-    return ramp(v.x / show.range);
-#endif
-#if VIEW == 11
-    return ramp(0.25 * log2(1.0 + 255.0 * sqrt(max(v.x, 0.0)) * show.exposure) / 2.0);
-#endif
-#if VIEW == 12
-    return vec3(v.x, 0.0, 0.0);
-#endif
-#if VIEW == 13
-    return ramp(v.x / show.range);
-#endif
 }
-#endif
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {

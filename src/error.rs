@@ -1,8 +1,8 @@
-//! What can go wrong, each error naming what is wrong and what would do.
+//! The errors. Each names the fault and a remedy.
 
 use wgpu::{Features, TextureFormat};
 
-/// Why a [`Denoiser`](crate::Denoiser) cannot be made or used so. Nothing was recorded and no history was lost.
+/// A reason for which a [`Denoiser`](crate::Denoiser) cannot be made, or a frame not recorded. Nothing was recorded and no history was lost.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -11,15 +11,15 @@ pub enum Error {
     Limit {
         /// Name of the limit in [`wgpu::Limits`].
         limit: &'static str,
-        /// What is needed.
+        /// The value that is needed.
         needed: u64,
-        /// What the device was created with.
+        /// The value that the device was created with.
         available: u64,
     },
     /// A feature that a setting asks for was not enabled on the host's device.
     #[error("the device lacks {missing:?}, which {setting} needs: request it when creating the device")]
     Feature {
-        /// What is missing.
+        /// The features that the device lacks.
         missing: Features,
         /// The setting that needs it.
         setting: &'static str,
@@ -37,22 +37,22 @@ pub enum Error {
         /// The device's `max_texture_dimension_2d`.
         limit: u32,
     },
-    /// A view of the host's has a format that cannot be used so.
+    /// A view of the host has a format that it may not have.
     #[error("the view `{view}` has the format {format:?}; it takes {accepted}")]
     ViewFormat {
-        /// Which view.
+        /// Name of the view.
         view: &'static str,
-        /// What it has.
+        /// Its format.
         format: TextureFormat,
-        /// What it may have.
+        /// The formats that it may have.
         accepted: &'static str,
     },
-    /// A view of the host's has another size than the denoiser.
+    /// A view of the host has another size than the denoiser.
     #[error(
         "the view `{view}` is {found:?} pixels, the denoiser {expected:?}: call `resize` or pass a view of that size"
     )]
     ViewSize {
-        /// Which view.
+        /// Name of the view.
         view: &'static str,
         /// Its size.
         found: [u32; 2],
@@ -62,9 +62,9 @@ pub enum Error {
     /// A view's texture was created without a usage that is needed.
     #[error("the texture of the view `{view}` was created without `{missing:?}`")]
     ViewUsage {
-        /// Which view.
+        /// Name of the view.
         view: &'static str,
-        /// What is missing.
+        /// The usages that its texture lacks.
         missing: wgpu::TextureUsages,
     },
     /// A view's texture is not a plain two-dimensional one.
@@ -72,30 +72,30 @@ pub enum Error {
         "the texture of the view `{view}` is {found}; it must have two dimensions, one layer and one sample per pixel"
     )]
     ViewShape {
-        /// Which view.
+        /// Name of the view.
         view: &'static str,
-        /// What it is instead.
+        /// Its shape.
         found: &'static str,
     },
     /// A view that a setting needs was not given.
     #[error("{setting} needs the view `{view}`: {remedy}")]
     ViewMissing {
-        /// Which view.
+        /// Name of the view.
         view: &'static str,
         /// The setting.
         setting: &'static str,
-        /// What would do.
+        /// The remedy.
         remedy: &'static str,
     },
-    /// The gradient cannot come from where `filter.gradient` says in this kind of frame.
+    /// `filter.gradient` names a source that this kind of frame does not have.
     #[error("`filter.gradient` is {asked:?}, which {reason}")]
     GradientSource {
         /// The setting.
         asked: crate::Gradient,
-        /// Why not, and what would do.
+        /// The reason and the remedy.
         reason: &'static str,
     },
-    /// [`denoise`](crate::Denoiser::denoise) without its [`begin_frame`](crate::Denoiser::begin_frame).
+    /// [`denoise`](crate::Denoiser::denoise) was called without its [`begin_frame`](crate::Denoiser::begin_frame).
     #[error(
         "`denoise` without `begin_frame`: call that first in each frame, and again after `reset`, `resize` and changed settings"
     )]
@@ -103,7 +103,7 @@ pub enum Error {
     /// A setting is outside its range.
     #[error("the setting `{setting}` is {value}; it must be {accepted}")]
     Setting {
-        /// Which setting.
+        /// Name of the setting.
         setting: &'static str,
         /// Its value.
         value: f64,
@@ -113,20 +113,20 @@ pub enum Error {
     /// The camera is not a perspective one with finite numbers.
     #[error("the camera's {element} {reason}")]
     Camera {
-        /// Which part.
+        /// Name of the part.
         element: &'static str,
-        /// What is wrong with it.
+        /// The fault.
         reason: &'static str,
     },
-    /// An intermediate image was asked for that the current settings do not make.
+    /// The last frame did not make the intermediate image that was asked for.
     #[error("the view {view:?} does not exist: {reason}")]
     NoView {
-        /// What was asked for.
+        /// The view that was asked for.
         view: crate::View,
-        /// Why it is not there.
+        /// The reason for its absence.
         reason: &'static str,
     },
-    /// A shader did not compile; this is a defect of the crate.
+    /// A shader did not compile. This is a defect of the crate.
     #[error("the shader `{shader}` with {features} does not compile: {message}")]
     Shader {
         /// File name without its ending.

@@ -74,6 +74,7 @@ extern crate self as asvgf;
 mod camera;
 mod denoiser;
 mod error;
+mod frame;
 mod gpu;
 mod host;
 #[cfg(feature = "image")]
@@ -85,14 +86,14 @@ pub mod plan;
 #[cfg(feature = "path-tracer")]
 pub mod scene;
 mod settings;
-#[cfg(feature = "path-tracer")]
-mod traced;
 #[cfg(all(test, feature = "path-tracer"))]
 mod twins;
 mod view;
 
 pub use camera::{Camera, Matrices, Viewpoint};
-pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements, Specialize};
+#[cfg(feature = "path-tracer")]
+pub use denoiser::Frame;
+pub use denoiser::{Denoiser, DenoiserDescriptor, Requirements, Specialize, Stepwise};
 pub use error::Error;
 pub use gpu::counts::InputCounts;
 pub use gpu::pipelines::Pipelines;
@@ -101,8 +102,6 @@ pub use host::{Lambda, Pairs, Reshade, Shading, Surfaces};
 pub use passes::Pass;
 pub use plan::Changes;
 pub use settings::*;
-#[cfg(feature = "path-tracer")]
-pub use traced::Frame;
 pub use view::{View, ViewOptions};
 
 /// WGSL for a host's own shader, for [`Gradient::Reshade`]: `asvgf_surface(frame, guide, repeats, shifts, pixel)` returns an

@@ -144,7 +144,7 @@ fn row(gpu: &Gpu, scene: Scene, case: &Case, frames: usize) -> String {
         let passes = film.expose(|denoiser, encoder, target, after| {
             uploaded.update(device, encoder, &pose).expect("a pose of the scene");
             let frame = Frame { scene: uploaded, camera, index: index as u32, target };
-            denoiser.render_stepwise(device, encoder, &frame, after)
+            denoiser.stepwise(after).render(device, encoder, &frame)
         });
         times.push(passes.expect("a frame").iter().map(|(_, ms)| ms).sum());
         if index == 0 {

@@ -6,7 +6,7 @@ use asvgf::wgpu::{CommandEncoder, TextureFormat, TextureView};
 use asvgf::{Denoiser, DenoiserDescriptor, Error, Pass, Settings, View, ViewOptions};
 
 /// What the denoiser calls after each pass, so that it can be submitted by itself.
-pub type After<'a> = &'a mut dyn FnMut(Pass, &mut CommandEncoder);
+pub type After<'a> = &'a mut dyn FnMut(&Pass, &mut CommandEncoder);
 
 pub struct Film<'a> {
     pub gpu: &'a Gpu,
@@ -47,7 +47,7 @@ impl<'a> Film<'a> {
         let mut encoder = new_encoder();
         let mut times = PassTimes::new();
         let mut watch = Stopwatch::start(self.clock);
-        let mut after = |pass: Pass, encoder: &mut CommandEncoder| {
+        let mut after = |pass: &Pass, encoder: &mut CommandEncoder| {
             if self.clock != Clock::Timestamps {
                 gpu.queue.submit([std::mem::replace(encoder, new_encoder()).finish()]);
                 gpu.wait();

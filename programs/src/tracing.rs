@@ -14,7 +14,7 @@ const BATCH: u32 = 16;
 pub fn render(film: &mut Film<'_>, scene: &GpuScene, camera: Camera, index: u32) -> Result<PassTimes, Error> {
     let device = &film.gpu.device;
     film.expose(|denoiser, encoder, target, after| {
-        denoiser.render_stepwise(device, encoder, &Frame { scene, camera, index, target }, after)
+        denoiser.stepwise(after).render(device, encoder, &Frame { scene, camera, index, target })
     })
 }
 

@@ -18,15 +18,15 @@ struct Facet {
     c: vec4<f32>,
 }
 
-// FEW_TRIANGLES is a multiple of 8; unused facets have the normal 0 and are never hit.
-@group(1) @binding(8) var<uniform> facets: array<Facet, #{FEW_TRIANGLES}>;
+// TRIANGLE_COUNT is a multiple of 8; unused facets have the normal 0 and are never hit.
+@group(1) @binding(8) var<uniform> facets: array<Facet, #{TRIANGLE_COUNT}>;
 #ifdef INSTANCED
 // Row of the lookup table and instance of each facet.
-@group(1) @binding(9) var<uniform> facet_owners: array<vec4<u32>, #{FEW_TRIANGLES}>;
+@group(1) @binding(9) var<uniform> facet_owners: array<vec4<u32>, #{TRIANGLE_COUNT}>;
 #endif
 
 // The facets as each invocation keeps them: inside a branch or a loop, a read of a uniform is done lane by lane.
-var<private> kept: array<Facet, #{FEW_TRIANGLES}>;
+var<private> kept: array<Facet, #{TRIANGLE_COUNT}>;
 
 fn keep_eight(i: u32) {
     kept[i] = facets[i];
@@ -42,25 +42,25 @@ fn keep_eight(i: u32) {
 // To be called once, before any branch.
 fn prepare_traversal() {
     keep_eight(0u);
-#if FEW_TRIANGLES > 8
+#if TRIANGLE_COUNT > 8
     keep_eight(8u);
 #endif
-#if FEW_TRIANGLES > 16
+#if TRIANGLE_COUNT > 16
     keep_eight(16u);
 #endif
-#if FEW_TRIANGLES > 24
+#if TRIANGLE_COUNT > 24
     keep_eight(24u);
 #endif
-#if FEW_TRIANGLES > 32
+#if TRIANGLE_COUNT > 32
     keep_eight(32u);
 #endif
-#if FEW_TRIANGLES > 40
+#if TRIANGLE_COUNT > 40
     keep_eight(40u);
 #endif
-#if FEW_TRIANGLES > 48
+#if TRIANGLE_COUNT > 48
     keep_eight(48u);
 #endif
-#if FEW_TRIANGLES > 56
+#if TRIANGLE_COUNT > 56
     keep_eight(56u);
 #endif
 }
@@ -125,25 +125,25 @@ fn blocked_by_eight(origin: vec3<f32>, direction: vec3<f32>, limit: f32, i: u32)
 fn closest_hit(ray: Ray) -> Hit {
     var nearest = Nearest(MISS, NO_TRIANGLE, vec2(0.0));
     test_eight(&nearest, ray.origin, ray.direction, 0u);
-#if FEW_TRIANGLES > 8
+#if TRIANGLE_COUNT > 8
     test_eight(&nearest, ray.origin, ray.direction, 8u);
 #endif
-#if FEW_TRIANGLES > 16
+#if TRIANGLE_COUNT > 16
     test_eight(&nearest, ray.origin, ray.direction, 16u);
 #endif
-#if FEW_TRIANGLES > 24
+#if TRIANGLE_COUNT > 24
     test_eight(&nearest, ray.origin, ray.direction, 24u);
 #endif
-#if FEW_TRIANGLES > 32
+#if TRIANGLE_COUNT > 32
     test_eight(&nearest, ray.origin, ray.direction, 32u);
 #endif
-#if FEW_TRIANGLES > 40
+#if TRIANGLE_COUNT > 40
     test_eight(&nearest, ray.origin, ray.direction, 40u);
 #endif
-#if FEW_TRIANGLES > 48
+#if TRIANGLE_COUNT > 48
     test_eight(&nearest, ray.origin, ray.direction, 48u);
 #endif
-#if FEW_TRIANGLES > 56
+#if TRIANGLE_COUNT > 56
     test_eight(&nearest, ray.origin, ray.direction, 56u);
 #endif
     var hit = Hit(nearest.distance, nearest.facet, 0u, nearest.weights);
@@ -160,25 +160,25 @@ fn closest_hit(ray: Ray) -> Hit {
 // Whether something lies on the open segment from the origin to `limit`.
 fn occluded(ray: Ray, limit: f32) -> bool {
     var blocked = blocked_by_eight(ray.origin, ray.direction, limit, 0u);
-#if FEW_TRIANGLES > 8
+#if TRIANGLE_COUNT > 8
     blocked |= blocked_by_eight(ray.origin, ray.direction, limit, 8u);
 #endif
-#if FEW_TRIANGLES > 16
+#if TRIANGLE_COUNT > 16
     blocked |= blocked_by_eight(ray.origin, ray.direction, limit, 16u);
 #endif
-#if FEW_TRIANGLES > 24
+#if TRIANGLE_COUNT > 24
     blocked |= blocked_by_eight(ray.origin, ray.direction, limit, 24u);
 #endif
-#if FEW_TRIANGLES > 32
+#if TRIANGLE_COUNT > 32
     blocked |= blocked_by_eight(ray.origin, ray.direction, limit, 32u);
 #endif
-#if FEW_TRIANGLES > 40
+#if TRIANGLE_COUNT > 40
     blocked |= blocked_by_eight(ray.origin, ray.direction, limit, 40u);
 #endif
-#if FEW_TRIANGLES > 48
+#if TRIANGLE_COUNT > 48
     blocked |= blocked_by_eight(ray.origin, ray.direction, limit, 48u);
 #endif
-#if FEW_TRIANGLES > 56
+#if TRIANGLE_COUNT > 56
     blocked |= blocked_by_eight(ray.origin, ray.direction, limit, 56u);
 #endif
     return blocked;

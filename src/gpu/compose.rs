@@ -1,8 +1,7 @@
-//! Composes a pass's shader from shaders/ and the features that are compiled in.
+//! Composes the shader of a pass from shaders/ and the features that are compiled in.
 
-use crate::Error;
-use crate::passes::Pass;
-use crate::plan::{Features, Traversal};
+use crate::passes::{Features, Pass, Step, Traversal};
+use crate::{Error, View};
 use naga_oil::compose::{ComposableModuleDescriptor, Composer, NagaModuleDescriptor, ShaderDefValue};
 use std::collections::HashMap;
 use wgpu::naga::Module;
@@ -49,15 +48,23 @@ const SHARED: &[(&str, &str)] = &[
     ("blinn_phong", include_str!("../../shaders/shared/blinn_phong.wgsl")),
 ];
 
-/// Which shader: a pass, its features, and the numbers that its source is given.
+/// One shader: a pass, its features, and the numbers that its source is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Permutation {
-    pub pass: Pass,
+    pub pass: &'static Pass,
     pub features: Features,
-    /// STACK_SIZE or FEW_TRIANGLES, in shaders that follow rays.
+    /// `STACK_SIZE` or `TRIANGLE_COUNT`, in shaders that follow rays.
     pub traversal: Traversal,
-    /// VIEW, in the shader of views.
-    pub view: u32,
+    /// `VIEW_…`, in the shader of views.
+    pub view: Option<View>,
+}
+
+impl Permutation {
+    /// The shader of a step, where rays find triangles in this way.
+    pub fn of(step: &Step, traversal: Traversal) -> Self {
+        let traversal = if step.pass.traces { traversal } else { Traversal::default() };
+        Self { pass: step.pass, features: step.features, traversal, view: step.view }
+    }
 }
 
 /// The shared modules, parsed once.
@@ -77,19 +84,22 @@ impl Shaders {
     }
 
     pub fn compose(&mut self, permutation: Permutation) -> Result<Module, Error> {
-        self.compose_source(permutation.pass.source(), permutation)
+        self.compose_source(permutation.pass.source, permutation)
     }
 
-    /// As [`Shaders::compose`], from another source than the pass's own.
+    /// Composes a shader from another source than the pass's own.
     pub fn compose_source(&mut self, source: &str, permutation: Permutation) -> Result<Module, Error> {
         let Permutation { pass, features, traversal, view } = permutation;
         let mut defs: HashMap<String, ShaderDefValue> =
             features.iter().map(|f| (f.define(), ShaderDefValue::Bool(true))).collect();
         match traversal {
             Traversal::Tree { stack } => defs.insert("STACK_SIZE".into(), ShaderDefValue::UInt(stack)),
-            Traversal::Every { triangles } => defs.insert("FEW_TRIANGLES".into(), ShaderDefValue::UInt(triangles)),
+            Traversal::Every { triangles } => defs.insert("TRIANGLE_COUNT".into(), ShaderDefValue::UInt(triangles)),
         };
-        defs.insert("VIEW".into(), ShaderDefValue::UInt(view));
+        if let Some(view) = view {
+            let name = format!("VIEW_{}", view.name().to_uppercase().replace('-', "_"));
+            defs.insert(name, ShaderDefValue::Bool(true));
+        }
         let descriptor =
             NagaModuleDescriptor { source, file_path: pass.name(), shader_defs: defs, ..Default::default() };
         self.0.make_naga_module(descriptor).map_err(|e| Error::Shader {

@@ -3,8 +3,8 @@
 use super::readback::Mailbox;
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device};
 
-/// How many pixels of a host's frame had to be cleaned before they could reach the history: all zero is as it should be. Outliers are counted
-/// beside these; a clean frame may have some.
+/// Numbers of pixels of a host's frame that had to be cleaned before they could reach the history. All of them should be zero, except that a
+/// clean frame may have outliers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct InputCounts {
@@ -13,14 +13,14 @@ pub struct InputCounts {
     /// Pixels with a positive, finite depth whose normal is zero or not finite (taken for a miss), or whose motion or previous
     /// depth is not finite (taken for new).
     pub surfaces: u32,
-    /// Pixels with a channel of radiance, albedo or emission that is infinite or not a number. Radiance that is no number is no sample,
-    /// an infinite one becomes 65504, and such an albedo 1.
+    /// Pixels with a channel of radiance, albedo or emission that is infinite or not a number. Radiance that is not a number is no sample,
+    /// infinite radiance becomes 65504, and such an albedo becomes 1.
     pub non_finite: u32,
-    /// Pixels with a negative channel there; it became 0.
+    /// Pixels with a negative channel of the same; the channel became 0.
     pub negative: u32,
-    /// Strata with a pair that is infinite or not a number; it was left out.
+    /// Strata with a pair that is infinite or not a number; the pair was left out.
     pub pairs: u32,
-    /// Pixels whose sample was brighter than is believed, see [`FilterSettings::outlier_limit`](crate::FilterSettings::outlier_limit).
+    /// Pixels whose sample was above the limit of outliers, see [`FilterSettings::outlier_limit`](crate::FilterSettings::outlier_limit).
     pub outliers: u32,
 }
 

@@ -44,12 +44,12 @@ pub(crate) struct FrameUniform {
     padding: u32,
 }
 
-/// What differs from frame to frame.
+/// The constants that differ from frame to frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Moment {
     pub camera: PlacedCamera,
     pub previous: PlacedCamera,
-    /// Where in the world the coordinates of the scene, or of the host, count from.
+    /// The place in the world that the coordinates of the scene, or of the host, count from.
     pub origin: [f64; 3],
     pub index: u32,
     pub continued: bool,
@@ -130,7 +130,7 @@ pub(crate) fn of_each_batch(frame: FrameUniform, batches: &[[u32; 2]]) -> Vec<u8
     bytes
 }
 
-/// How many independent pairs a filtered pair is worth: 1/Σw² (Kish 1965) of the tent's à-trous iterations, which together are a tent of
+/// The number of independent pairs that a filtered pair is worth: 1/Σw² (Kish 1965) of the tent's à-trous iterations, which together are a tent of
 /// half-width m = 2ⁱ, so (3m³/(2m² + 1))² on an endless plane. Edges of surfaces take a part of the taps: the study measured 90 for
 /// three iterations, where that is 142.
 fn effective_pairs(iterations: u32) -> f32 {

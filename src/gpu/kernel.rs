@@ -1,7 +1,9 @@
-//! A compiled shader whose bindings are known by name: the layout follows from the shader, which is the single truth.
+//! A compiled shader. Its layout follows from the shader, which is the single truth; the names of its bindings are resolved
+//! here, once.
 
-use super::compose::Permutation;
+use super::resource::Resource;
 use crate::Error;
+use crate::passes::Step;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 use wgpu::naga::{self, AddressSpace, ImageClass, Module, ScalarKind, StorageAccess, TypeInner};
 use wgpu::{
@@ -11,12 +13,19 @@ use wgpu::{
     StorageTextureAccess, TextureFormat, TextureSampleType, TextureViewDimension,
 };
 
-/// A pipeline and the names of its bindings.
+/// A pipeline and the resources that it binds.
 #[derive(Debug)]
 pub(crate) struct Kernel {
     pub pipeline: ComputePipeline,
-    groups: Vec<(BindGroupLayout, Vec<(u32, String)>)>,
+    groups: Vec<Group>,
     label: String,
+}
+
+/// The layout of a bind group and the resource behind each of its bindings.
+#[derive(Debug)]
+struct Group {
+    layout: BindGroupLayout,
+    bindings: Vec<(u32, Resource)>,
 }
 
 /// A binding that a shader really uses.
@@ -29,32 +38,34 @@ pub(crate) struct Used {
 }
 
 impl Kernel {
-    /// Compiles a permutation's composed module.
-    pub fn new(device: &Device, module: Module, permutation: Permutation) -> Result<Self, Error> {
-        let used = used_bindings(&module).map_err(|message| Error::Shader {
-            shader: permutation.pass.name(),
-            features: format!("{:?}", permutation.features),
-            message,
-        })?;
-        let label = format!("asvgf {}", permutation.pass.name());
+    /// Compiles a step's composed module.
+    pub fn new(device: &Device, module: Module, step: &Step) -> Result<Self, Error> {
+        let failed =
+            |message| Error::Shader { shader: step.pass.name(), features: format!("{:?}", step.features), message };
+        let used = used_bindings(&module).map_err(failed)?;
+        let label = format!("asvgf {}", step.pass.name());
         let group_count = used.iter().map(|u| u.group + 1).max().unwrap_or(0);
-        let groups: Vec<_> = (0..group_count)
-            .map(|group| {
-                let of_group = || used.iter().filter(move |u| u.group == group);
-                let entries: Vec<_> = of_group()
-                    .map(|u| BindGroupLayoutEntry {
-                        binding: u.binding,
-                        visibility: ShaderStages::COMPUTE,
-                        ty: u.ty,
-                        count: None,
-                    })
-                    .collect();
-                let layout = device
-                    .create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some(&label), entries: &entries });
-                (layout, of_group().map(|u| (u.binding, u.name.clone())).collect())
-            })
-            .collect();
-        let layouts: Vec<_> = groups.iter().map(|(layout, _)| Some(layout)).collect();
+        let group = |number| {
+            let of_group = || used.iter().filter(move |u| u.group == number);
+            let entries: Vec<_> = of_group()
+                .map(|u| BindGroupLayoutEntry {
+                    binding: u.binding,
+                    visibility: ShaderStages::COMPUTE,
+                    ty: u.ty,
+                    count: None,
+                })
+                .collect();
+            let layout =
+                device.create_bind_group_layout(&BindGroupLayoutDescriptor { label: Some(&label), entries: &entries });
+            let resource = |u: &Used| {
+                Resource::named(&u.name, step)
+                    .ok_or_else(|| failed(format!("nothing is known by the name `{}`", u.name)))
+            };
+            let bindings = of_group().map(|u| Ok((u.binding, resource(u)?))).collect::<Result<_, Error>>()?;
+            Ok(Group { layout, bindings })
+        };
+        let groups = (0..group_count).map(group).collect::<Result<Vec<_>, Error>>()?;
+        let layouts: Vec<_> = groups.iter().map(|group| Some(&group.layout)).collect();
         let layout = device.create_pipeline_layout(&PipelineLayoutDescriptor {
             label: Some(&label),
             bind_group_layouts: &layouts,
@@ -79,39 +90,30 @@ impl Kernel {
         Ok(Self { pipeline, groups, label })
     }
 
-    /// Names of the bindings of a group.
+    /// The resources that it binds.
     #[cfg(all(test, feature = "path-tracer"))]
-    pub fn names(&self, group: usize) -> impl Iterator<Item = &str> {
-        self.groups.get(group).into_iter().flat_map(|(_, names)| names.iter().map(|(_, name)| name.as_str()))
+    pub fn resources(&self) -> impl Iterator<Item = Resource> {
+        self.groups.iter().flat_map(|group| &group.bindings).map(|(_, resource)| *resource)
     }
 
-    /// Bind groups with what `resource` returns for each name.
+    /// Bind groups with the resources that `find` returns.
     ///
     /// # Errors
-    /// The name for which there is nothing.
+    /// The resource that there is not.
     pub fn bind<'a>(
         &self,
         device: &Device,
-        resource: impl Fn(&str) -> Option<BindingResource<'a>>,
-    ) -> Result<Vec<BindGroup>, String> {
-        self.groups
-            .iter()
-            .map(|(layout, names)| {
-                let entries = names
-                    .iter()
-                    .map(|(binding, name)| {
-                        resource(name)
-                            .map(|resource| BindGroupEntry { binding: *binding, resource })
-                            .ok_or_else(|| name.clone())
-                    })
-                    .collect::<Result<Vec<_>, _>>()?;
-                Ok(device.create_bind_group(&BindGroupDescriptor {
-                    label: Some(&self.label),
-                    layout,
-                    entries: &entries,
-                }))
-            })
-            .collect()
+        find: impl Fn(Resource) -> Option<BindingResource<'a>>,
+    ) -> Result<Vec<BindGroup>, Resource> {
+        let bind = |group: &Group| {
+            let entry = |&(binding, resource)| {
+                find(resource).map(|resource| BindGroupEntry { binding, resource }).ok_or(resource)
+            };
+            let entries = group.bindings.iter().map(entry).collect::<Result<Vec<_>, _>>()?;
+            let label = Some(self.label.as_str());
+            Ok(device.create_bind_group(&BindGroupDescriptor { label, layout: &group.layout, entries: &entries }))
+        };
+        self.groups.iter().map(bind).collect()
     }
 }
 

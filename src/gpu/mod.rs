@@ -7,5 +7,6 @@ pub(crate) mod frame;
 pub(crate) mod kernel;
 pub(crate) mod pipelines;
 pub(crate) mod readback;
+pub(crate) mod resource;
 pub(crate) mod textures;
 pub(crate) mod timing;

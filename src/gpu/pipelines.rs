@@ -3,6 +3,7 @@
 use super::compose::{Permutation, Shaders};
 use super::kernel::Kernel;
 use crate::Error;
+use crate::passes::{Step, Traversal};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -17,7 +18,7 @@ pub struct Pipelines {
     shared: Arc<Shared>,
 }
 
-/// A shader that is compiled, or is being compiled by who holds the lock.
+/// A shader that is compiled, or is being compiled by the holder of the lock.
 type Slot = Arc<Mutex<Option<Arc<Kernel>>>>;
 
 /// Locks are taken in this order: a slot's, then either of these, and each of these for as long as it takes to look something up or
@@ -28,26 +29,27 @@ struct Shared {
 }
 
 impl Pipelines {
-    /// None compiled yet.
+    /// An empty cache.
     pub(crate) fn new(device: &Device) -> Result<Self, Error> {
         let shared = Shared { composer: Mutex::new(Shaders::new()?), slots: Mutex::default() };
         Ok(Self { device: device.clone(), shared: Arc::new(shared) })
     }
 
-    /// Whether they are this device's. wgpu numbers devices by instance, and cannot tell those of two instances apart.
+    /// True if they are this device's. wgpu numbers devices by instance, and cannot tell the devices of two instances apart.
     pub(crate) fn belong_to(&self, device: &Device) -> bool {
         self.device == *device
     }
 
-    /// The compiled shader; compiles it if that was not done.
-    pub(crate) fn kernel(&self, permutation: Permutation) -> Result<Arc<Kernel>, Error> {
+    /// The compiled shader of a step; compiles it if that was not done.
+    pub(crate) fn kernel(&self, step: &Step, traversal: Traversal) -> Result<Arc<Kernel>, Error> {
+        let permutation = Permutation::of(step, traversal);
         let slot = self.slot(permutation);
         let mut slot = lock(&slot);
         if let Some(kernel) = &*slot {
             return Ok(kernel.clone());
         }
         let module = lock(&self.shared.composer).compose(permutation)?;
-        let kernel = Arc::new(Kernel::new(&self.device, module, permutation)?);
+        let kernel = Arc::new(Kernel::new(&self.device, module, step)?);
         Ok(slot.insert(kernel).clone())
     }
 
@@ -55,7 +57,7 @@ impl Pipelines {
         lock(&self.shared.slots).entry(permutation).or_default().clone()
     }
 
-    /// How many are compiled; one that is being compiled is not.
+    /// The number of compiled shaders, without those that are being compiled.
     pub fn count(&self) -> usize {
         let slots: Vec<Slot> = lock(&self.shared.slots).values().cloned().collect();
         slots.iter().filter(|slot| slot.try_lock().is_ok_and(|slot| slot.is_some())).count()
@@ -76,8 +78,7 @@ impl fmt::Debug for Pipelines {
 #[cfg(all(test, feature = "path-tracer"))]
 mod tests {
     use super::*;
-    use crate::passes::Pass;
-    use crate::plan::{Feature, Features, Traversal};
+    use crate::passes::{Feature, Features, variance};
     use crate::twins::gpu::gpu;
     use std::sync::mpsc;
     use std::time::Duration;
@@ -85,27 +86,23 @@ mod tests {
     #[test]
     fn whoever_has_what_it_needs_does_not_wait_for_others_to_compile() {
         let pipelines = Pipelines::new(&gpu().device).unwrap();
-        let of = |features: &[Feature]| Permutation {
-            pass: Pass::Variance,
-            features: Features::of(features),
-            traversal: Traversal::default(),
-            view: 0,
-        };
+        let of = |features: &[Feature]| Step::new(&variance::PASS, Features::of(features));
         let (ready, busy) = (of(&[]), of(&[Feature::VarianceOfMean]));
-        pipelines.kernel(ready).unwrap();
+        let kernel = |pipelines: &Pipelines, step: &Step| pipelines.kernel(step, Traversal::default()).map(|_| ());
+        kernel(&pipelines, &ready).unwrap();
         // As long as this is held, the second is being compiled.
-        let slot = pipelines.slot(busy);
+        let slot = pipelines.slot(Permutation::of(&busy, Traversal::default()));
         let compiling = lock(&slot);
         let (sender, receiver) = mpsc::channel();
         let others = pipelines.clone();
         std::thread::spawn(move || {
-            let kernel = others.kernel(ready).map(|_| ());
+            let kernel = kernel(&others, &ready);
             sender.send((kernel.is_ok(), others.count())).unwrap();
         });
         let found = receiver.recv_timeout(Duration::from_secs(60)).expect("the other denoiser does not wait");
         assert_eq!(found, (true, 1));
         drop(compiling);
-        pipelines.kernel(busy).unwrap();
+        kernel(&pipelines, &busy).unwrap();
         assert_eq!(pipelines.count(), 2);
     }
 }

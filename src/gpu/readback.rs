@@ -3,10 +3,10 @@
 use std::sync::{Arc, Mutex};
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, MapMode};
 
-/// Results that wait to be taken; older ones are dropped, so that a host that never asks loses no memory.
+/// Results that wait to be taken. Older ones are dropped, so that a host that never asks does not lose memory.
 const KEPT: usize = 256;
 
-/// Where results arrive, oldest first.
+/// The results that have arrived, oldest first.
 #[derive(Debug)]
 pub(crate) struct Mailbox<T>(Arc<Mutex<Vec<T>>>);
 
@@ -17,7 +17,7 @@ impl<T> Default for Mailbox<T> {
 }
 
 impl<T: Send + 'static> Mailbox<T> {
-    /// Copies a buffer, maps the copy once the host has submitted, and keeps what `read` makes of the bytes.
+    /// Copies a buffer, maps the copy once the host has submitted, and keeps the value that `read` makes of the bytes.
     pub fn fetch(
         &self,
         device: &Device,

@@ -9,7 +9,7 @@ pub(crate) struct Textures {
     memory: Memory,
     /// By the numbers of `memory`.
     views: Vec<Option<TextureView>>,
-    /// What the frames were planned to use at most, when textures were last given up.
+    /// The images that frames were planned to use at most when textures were last given up.
     images: Vec<(Image, bool)>,
     /// Keep every image until the next frame.
     keep: bool,
@@ -17,17 +17,17 @@ pub(crate) struct Textures {
 }
 
 impl Textures {
-    /// With `keep`, no texture is used for two images of one frame.
+    /// Textures of one denoiser. With `keep`, no texture holds two images of one frame.
     pub fn new(keep: bool) -> Self {
         Self { keep, ..Default::default() }
     }
 
-    /// Whether every image is kept until the next frame.
+    /// True if every image is kept until the next frame.
     pub fn keeps(&self) -> bool {
         self.keep
     }
 
-    /// Whether a frame that begins now finds all of the last one that a plan asks for.
+    /// True if a new frame finds all images of the last one that a plan reads.
     pub fn has_all_before(&self, plan: &Plan) -> bool {
         self.memory.has_all_before(&plan.steps)
     }
@@ -37,8 +37,8 @@ impl Textures {
         self.memory.begin();
     }
 
-    /// Makes what steps `from` to `to` of a plan use. The last of them end the frame: what is used for the last time is free for
-    /// others then, and what of `images`, those of the plan if everything changes, the next frame needs is left for it.
+    /// Creates the textures that steps `from..to` of a plan use. If these steps end the frame, a texture is reused after its last use, and
+    /// the images that the next frame needs are kept. `images` are those of the same plan if everything changes.
     pub fn place(
         &mut self,
         device: &Device,
@@ -85,12 +85,12 @@ impl Textures {
         self.views.get(self.memory.texture(slot)?)?.as_ref()
     }
 
-    /// Whether what they hold is a whole frame: none was begun since.
+    /// True if they hold a whole frame: none was begun since.
     pub fn is_complete(&self) -> bool {
         self.memory.is_complete()
     }
 
-    /// Whether the last frame's image is still there.
+    /// True if the last frame's image is still there.
     pub fn holds(&self, image: Image) -> bool {
         self.memory.holds(image)
     }

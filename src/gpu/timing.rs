@@ -36,7 +36,7 @@ const MOST_PASSES: usize = wgpu::QUERY_SET_MAX_QUERIES as usize / 2;
 #[derive(Debug)]
 pub(crate) struct FrameQueries {
     set: QuerySet,
-    /// Passes that it has timestamps for.
+    /// Number of passes that it has timestamps for.
     room: usize,
     names: Vec<&'static str>,
     frame: u32,
@@ -84,7 +84,7 @@ impl Timing {
 }
 
 impl FrameQueries {
-    /// Where the next pass writes its two timestamps; `None` where there is no room left.
+    /// The two timestamps that the next pass writes; `None` if there is no room left.
     pub fn next(&mut self, name: &'static str) -> Option<ComputePassTimestampWrites<'_>> {
         let first = 2 * self.names.len() as u32;
         (self.names.len() < self.room).then(|| {

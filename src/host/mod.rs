@@ -1,81 +1,79 @@
-//! Frames of a host's own renderer: what it hands in, and what it is handed.
+//! Frames of a host's own renderer: the views that it hands in, and those that it is handed.
 
-mod record;
 mod views;
 
-pub(crate) use record::Begun;
-pub(crate) use views::shape;
+pub(crate) use views::{shading, surfaces, target};
 
 use crate::Viewpoint;
 use crate::plan::Changes;
 use wgpu::{Buffer, TextureView};
 
-/// What a host's frame shows, before any light: the G-buffer.
+/// The surfaces of a host's frame, before any light: the G-buffer.
 ///
-/// All views are of the denoiser's size and have `TEXTURE_BINDING` usage. What is absent is left out of the shaders. Nothing is
+/// All views are of the denoiser's size and have `TEXTURE_BINDING` usage. Shaders leave out the views that are absent. Nothing is
 /// read before the host submits the encoder.
 #[derive(Clone, Copy, Debug)]
 pub struct Surfaces<'a> {
-    /// From where, in this frame.
+    /// The viewpoint of this frame.
     pub camera: Viewpoint,
     /// Number of the frame. With the pixel it should decide all random numbers. It should grow by one per frame: any other step
-    /// starts a new history, as motion leads to the frame before.
+    /// starts a new history, because motion leads to the frame before.
     pub index: u32,
     /// Distance from the eye along the view axis, in the world's unit (not the hardware's depth, not the ray's length): first
     /// channel of `r32float`, `r16float`, `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. 0, negative, infinite and NaN
-    /// mean that nothing was hit, as does what is outside 10⁻¹⁸ … 10¹⁸: some renderers have a sky at f32's largest number.
+    /// mean that nothing was hit. So do depths outside 10⁻¹⁸ … 10¹⁸, because some renderers put the sky at f32's largest number.
     pub depth: &'a TextureView,
     /// World-space normal on the seen side: of any length in `rgba16float`, `rgba32float` or `rgba8snorm`; mapped to 0…1 in
     /// `rgba8unorm` or `rgb10a2unorm`; on the unfolded octahedron as −1…1 in `rg16float`, `rg32float`, `rg8snorm` or `rg16snorm`, as
     /// 0…1 in `rg8unorm` or `rg16unorm`, and as two 16-bit 0…1 numbers (x in the low half) in `r32uint`. Zero means that nothing
     /// was hit. It is kept to 10 bits a component.
     pub normal: &'a TextureView,
-    /// Where the surface point was in the previous frame's image less where it is, in pixels, x right, y down, without either
+    /// Place of the surface point in the previous frame's image less its place in this one, in pixels, x right, y down, without either
     /// frame's jitter: first two channels of `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. NaN or infinite: it was
-    /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether it is right. It and `previous_depth` may be read by what
-    /// [`Denoiser::denoise`](crate::Denoiser::denoise) records: leave them as they are until then.
+    /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether the motion is right. Passes that
+    /// [`Denoiser::denoise`](crate::Denoiser::denoise) records may read it and `previous_depth`: leave both unchanged until then.
     pub motion: &'a TextureView,
-    /// The linear depth that the surface point had in the previous frame's camera, in the formats of `depth`. Without it points are
-    /// taken as not moving in depth, which holds for all that only the camera moves. With re-shading, points that move are placed by
-    /// it: take 32 bits there, as 16 put them 5·10⁻⁴ of the depth off their surface.
+    /// The linear depth that the surface point had in the previous frame's camera, in the formats of `depth`. Without it, points are
+    /// taken to rest while the camera moves. With re-shading, it places the points that move: take 32 bits, because 16 bits place them
+    /// 5·10⁻⁴ of the depth off their surface.
     pub previous_depth: Option<&'a TextureView>,
-    /// Number of the object: two that touch are not mixed in time. First channel of `r8uint`, `r16uint`, `r32uint`, `rg32uint`,
-    /// `rgba32uint`, `r16float` or `r32float`, …; only told apart, so any distinct numbers will do.
+    /// Number of the object, so that two objects that touch are not mixed in time. First channel of `r8uint`, `r16uint`, `r32uint`, `rg32uint`,
+    /// `rgba32uint`, `r16float` or `r32float`, …; any distinct numbers will do.
     pub instance: Option<&'a TextureView>,
-    /// What may have changed since the last frame. Where nothing has, passes are left out, and a still image converges. Anything may
-    /// have by default; that the camera moved is noticed anyway.
+    /// The parts that may have changed since the last frame. Where nothing has changed, passes are left out, and a still image converges.
+    /// By default anything may have changed. A camera that moved is noticed in any case.
     pub changes: Changes,
 }
 
 /// The light of a host's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Shading<'a> {
-    /// Noisy linear radiance, Rec. 709, ≥ 0 (what is above 10¹⁵ counts as that): `rgba16float`, `rgba32float`, `rg11b10ufloat` or
-    /// `rgb9e5ufloat`. Where nothing was hit it is shown as it is. It may be the target too (it is copied then). NaN is no sample: the
+    /// Noisy linear radiance, Rec. 709, ≥ 0 (values above 10¹⁵ count as 10¹⁵): `rgba16float`, `rgba32float`, `rg11b10ufloat` or
+    /// `rgb9e5ufloat`. Where nothing was hit it is shown as it is. It may be the target too; it is copied then. NaN is no sample: the
     /// pixel's history goes on, or it is filled from its surface, up to 27 pixels away (black without spatial iterations). +∞ enters no average: it halves the pixel's history, and is shown as 65504 where
-    /// there is none left.
-    /// Take other random numbers in each frame: the same noise cannot be averaged.
+    /// no history is left.
+    /// Take other random numbers in each frame: the same noise does not average out.
     pub radiance: &'a TextureView,
     /// Linear reflectance at the visible surface, 0…1: `rgba8unorm` and `bgra8unorm` (`-srgb` too), `rgb10a2unorm`, and the formats
     /// of `radiance`. Radiance is divided by it before filtering (by at least 0.02, at most 1) and the result multiplied, so that textures stay
-    /// sharp. An albedo that is no number divides by nothing. Where there is none, radiance is filtered with its textures;
+    /// sharp. An albedo that is not a number divides nothing. Without an albedo, radiance is filtered with its textures;
     /// a frame with an albedo after one without starts a new history.
     pub albedo: Option<&'a TextureView>,
     /// Linear radiance that the visible surface or the sky emits towards the eye, in the formats of `radiance`. It bypasses the
-    /// filter: emitters stay sharp, and blink without resetting what is around them.
+    /// filter: emitters stay sharp, and blink without resetting their surroundings.
     pub emission: Option<&'a TextureView>,
-    /// Whether `radiance` is the light alone: without `emission`, not yet multiplied by `albedo`. Otherwise it is the full image.
+    /// True if `radiance` is the light alone: without `emission`, not yet multiplied by `albedo`. False if it is the full image.
     pub demodulated: bool,
-    /// For [`Gradient::Pairs`](crate::Gradient::Pairs).
+    /// Pairs, for [`Gradient::Pairs`](crate::Gradient::Pairs).
     pub pairs: Option<Pairs<'a>>,
-    /// For [`Gradient::Lambda`](crate::Gradient::Lambda).
+    /// λ itself, for [`Gradient::Lambda`](crate::Gradient::Lambda).
     pub lambda: Option<Lambda<'a>>,
-    /// Where linear radiance goes: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
+    /// The view that receives linear radiance: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
     pub target: &'a TextureView,
 }
 
 impl<'a> Surfaces<'a> {
-    /// The least: without `previous_depth` and `instance`, and nothing known of `changes`.
+    /// The least that a frame needs: no `previous_depth`, no `instance`, and `changes` unknown.
     pub fn new(
         camera: impl Into<Viewpoint>,
         index: u32,
@@ -97,13 +95,13 @@ impl<'a> Surfaces<'a> {
 }
 
 impl<'a> Shading<'a> {
-    /// Radiance alone, with its emission and textures.
+    /// Radiance alone, which contains its emission and textures.
     pub fn new(radiance: &'a TextureView, target: &'a TextureView) -> Self {
         Self { radiance, albedo: None, emission: None, demodulated: false, pairs: None, lambda: None, target }
     }
 }
 
-/// What some surface samples of the last frame reflected then, and the same paths now: the gradient's measurements.
+/// Radiances that some surface samples of the last frame reflected then, and that the same paths reflect now: the gradient's measurements.
 ///
 /// A host takes a sample of last frame, finds where it is in this frame's image, and shades it again: the same point, view
 /// direction and random numbers, in this frame's scene. Both values are of the same kind as [`Shading::radiance`] but without
@@ -116,12 +114,12 @@ pub struct Pairs<'a> {
     pub current: &'a TextureView,
     /// Radiance then, of the same size and with as many channels.
     pub previous: &'a TextureView,
-    /// Whether `radiance` holds the same paths in these pixels, instead of paths of their own: they are then not counted as new
+    /// True if `radiance` holds the same paths in these pixels, instead of paths of their own: they are then not counted as new
     /// samples. Full size only.
     pub in_place: bool,
 }
 
-/// How much of each pixel's history the host wants dropped.
+/// The share of each pixel's history that the host wants dropped.
 #[derive(Clone, Copy, Debug)]
 pub struct Lambda<'a> {
     /// First channel of `r8unorm`, `r16float`, `r32float`, `rg…`, `rgba8unorm`, `rgba16float` or `rgba32float`, 0…1: 0 keeps all, 1
@@ -129,28 +127,28 @@ pub struct Lambda<'a> {
     pub view: &'a TextureView,
     /// Pixels of each direction that share a texel, 1…32768.
     pub block: u32,
-    /// Whether the view holds the confidence in the history, 1 − λ.
+    /// True if the view holds the confidence in the history, 1 − λ.
     pub confidence: bool,
 }
 
-/// What a host needs to repeat one of last frame's paths in each 3×3 pixels, for
+/// The paths of the last frame that a host is to repeat, one in each 3×3 pixels, for
 /// [`Gradient::Reshade`](crate::Gradient::Reshade).
 ///
-/// Put [`RESHADE_WGSL`](crate::RESHADE_WGSL) before the shader that starts the paths, bind these four, and shade what
-/// `asvgf_surface` returns, seeded as it says. Nothing else is asked: the pixels that repeat a path are ordinary ones. Nothing
-/// repeats in a first frame or after a restart, and where [`Surfaces::changes`] says that the scene has not changed there is none of
-/// these.
+/// Put [`RESHADE_WGSL`](crate::RESHADE_WGSL) before the shader that starts the paths, bind these four, and shade the
+/// point that `asvgf_surface` returns, with the seed that it returns. The host does nothing else: pixels that repeat a path are ordinary
+/// pixels. No path is repeated in a first frame or after a restart. If [`Surfaces::changes`] says that the scene has not changed, there is
+/// no `Reshade`.
 #[derive(Clone, Debug)]
 pub struct Reshade {
     /// The frame's constants: a uniform buffer, `AsvgfFrame`.
     pub frame: Buffer,
-    /// What each pixel sees: `rg32uint`, normal (three signed 10-bit numbers) and linear depth (f32 bits), 0 where nothing was hit.
-    /// Paths start from these, so that one that is repeated starts from just the same point. Valid as long as `repeats`.
+    /// The surface that each pixel sees: `rg32uint`, normal (three signed 10-bit numbers) and linear depth (f32 bits), 0 where nothing was hit.
+    /// Paths start from it, so that a repeated path starts from exactly the same point. Valid as long as `repeats`.
     pub guide: TextureView,
     /// One `rgba32uint` texel for each stratum of 3×3 pixels, ⌈width/3⌉ × ⌈height/3⌉: place of the pixel that repeats a path (1…9
     /// row by row, 0 for none), the last frame's pixel whose path it is (x | y << 16), that pixel's packed normal and its linear
-    /// depth (f32 bits). Valid for what is recorded before [`Denoiser::denoise`](crate::Denoiser::denoise), which writes over it.
+    /// depth (f32 bits). Valid for passes that are recorded before [`Denoiser::denoise`](crate::Denoiser::denoise), which overwrites it.
     pub repeats: TextureView,
-    /// As `repeats`: how far the surface of that path has moved since (world space, f32 bits).
+    /// For each texel of `repeats`, the displacement of that path's surface since the last frame (world space, f32 bits).
     pub shifts: TextureView,
 }

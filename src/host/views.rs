@@ -1,8 +1,9 @@
-//! Checks of the host's views at the door, and what they mean for the shaders.
+//! Checks of the host's views at the door, and the features that follow from them.
 
 use super::{Lambda, Pairs, Shading, Surfaces};
 use crate::Error;
-use crate::plan::{Changes, Grid, HostTraits};
+use crate::passes::{Grid, HostView};
+use crate::plan::{Changes, HostTraits};
 use crate::settings::{Gradient, Mode, Settings};
 use wgpu::TextureFormat::{self, *};
 use wgpu::{TextureDimension, TextureUsages, TextureView};
@@ -77,8 +78,31 @@ fn read(
     Ok(format)
 }
 
+/// Checks a view that is written, and returns its format.
+pub(crate) fn target(target: &TextureView, size: [u32; 2], accepted: &[TextureFormat]) -> Result<TextureFormat, Error> {
+    let texture = target.texture();
+    let format = texture.format();
+    shape("target", target)?;
+    if !accepted.contains(&format) {
+        let accepted = match accepted.len() {
+            2 => "rgba16float or rgba32float",
+            _ => "rgba8unorm, rgba16float or rgba32float",
+        };
+        return Err(Error::ViewFormat { view: "target", format, accepted });
+    }
+    let found = [texture.width(), texture.height()];
+    if found != size {
+        return Err(Error::ViewSize { view: "target", found, expected: size });
+    }
+    let missing = TextureUsages::STORAGE_BINDING - texture.usage();
+    if !missing.is_empty() {
+        return Err(Error::ViewUsage { view: "target", missing });
+    }
+    Ok(format)
+}
+
 /// Checks that a view is of a plain image.
-pub(crate) fn shape(view: &'static str, of: &TextureView) -> Result<(), Error> {
+fn shape(view: &'static str, of: &TextureView) -> Result<(), Error> {
     let texture = of.texture();
     if texture.dimension() != TextureDimension::D2 || texture.depth_or_array_layers() != 1 {
         return Err(Error::ViewShape { view, found: "not one image" });
@@ -89,8 +113,37 @@ pub(crate) fn shape(view: &'static str, of: &TextureView) -> Result<(), Error> {
     Ok(())
 }
 
-/// What the G-buffer's views mean for the shaders.
-pub(super) fn surfaces(traits: &mut HostTraits, given: &Surfaces<'_>, size: [u32; 2]) -> Result<(), Error> {
+impl<'a> Surfaces<'a> {
+    /// The view of this kind, if it is one of the surfaces' and was given.
+    pub(crate) fn view(&self, kind: HostView) -> Option<&'a TextureView> {
+        match kind {
+            HostView::Depth => Some(self.depth),
+            HostView::Normal => Some(self.normal),
+            HostView::Motion => Some(self.motion),
+            HostView::PreviousDepth => self.previous_depth,
+            HostView::Instance => self.instance,
+            _ => None,
+        }
+    }
+}
+
+impl<'a> Shading<'a> {
+    /// The view of this kind, if it is one of the light's and was given.
+    pub(crate) fn view(&self, kind: HostView) -> Option<&'a TextureView> {
+        match kind {
+            HostView::Radiance => Some(self.radiance),
+            HostView::Albedo => self.albedo,
+            HostView::Emission => self.emission,
+            HostView::PairNow => self.pairs.map(|pairs| pairs.current),
+            HostView::PairBefore => self.pairs.map(|pairs| pairs.previous),
+            HostView::Lambda => self.lambda.map(|lambda| lambda.view),
+            _ => None,
+        }
+    }
+}
+
+/// Checks the G-buffer's views, and notes their contents.
+pub(crate) fn surfaces(traits: &mut HostTraits, given: &Surfaces<'_>, size: [u32; 2]) -> Result<(), Error> {
     read("depth", given.depth, size, &[DEPTH], DEPTH_WORDS)?;
     let lists = [DIRECT_NORMAL, MAPPED_NORMAL, OCTAHEDRAL_NORMAL, MAPPED_OCTAHEDRAL_NORMAL, &[R32Uint]];
     let normal = read("normal", given.normal, size, &lists, NORMAL_WORDS)?;
@@ -110,8 +163,8 @@ pub(super) fn surfaces(traits: &mut HostTraits, given: &Surfaces<'_>, size: [u32
     Ok(())
 }
 
-/// What the light's views mean for the shaders.
-pub(super) fn shading(
+/// Checks the light's views, and notes their contents.
+pub(crate) fn shading(
     traits: &mut HostTraits,
     given: &Shading<'_>,
     size: [u32; 2],

@@ -1,39 +1,34 @@
 //! Gradient and history ratio of each stratum, see shaders/gradient.wgsl.
 
-use super::{Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-const FEATURES: &[Feature] =
-    &[Feature::BlinnPhong, Feature::Pairs, Feature::HistoryRatio, Feature::SignedGradient, Feature::Outliers];
-
-/// What Blinn–Phong shading reads of the scene.
-const SURFACE: &[Feature] = &[
-    Feature::Instanced,
-    Feature::Textures,
-    Feature::FoldedImages,
-    Feature::ShadingNormals,
-    Feature::VertexColors,
-    Feature::Specular,
-];
-
-/// `pairs` is which of the pair images the pairs' filter left its result in.
-pub(crate) fn step(features: Features, pairs: u8) -> Step {
-    let surface = if features.has(Feature::BlinnPhong) { SURFACE } else { &[] };
-    let mut features: Features = features.and(FEATURES.iter().chain(surface).copied().collect());
-    let mut all = if features.has(Feature::BlinnPhong) {
-        features = features.without(Feature::Outliers);
-        vec![("samples", Slot::Now(Image::Samples)), ("visibility_previous", Slot::Before(Image::Visibility))]
-    } else {
-        super::gradient_pairs::taps(features)
-    };
-    all.extend(bindings(
-        features,
-        [
-            ("now_filtered", Slot::Now(Image::PairsNow(pairs)), &[Feature::HistoryRatio]),
-            ("before_filtered", Slot::Now(Image::PairsBefore(pairs)), &[Feature::HistoryRatio]),
-            ("ratio_out", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
-            ("gradient_out", Slot::Now(Image::Gradient(0)), &[]),
+/// The turn is that of the pairs' filter after its last iteration. Analytic shading reads the scene instead of pairs.
+pub(crate) static PASS: Pass = Pass {
+    name: "gradient",
+    source: include_str!("../../shaders/gradient.wgsl"),
+    grid: Strata,
+    features: &[&[
+        knows(BlinnPhong),
+        knows(Pairs),
+        knows(HistoryRatio),
+        knows(SignedGradient),
+        knows(Outliers).unless(BlinnPhong),
+        knows(Instanced).with(BlinnPhong),
+        knows(Textures).with(BlinnPhong),
+        knows(FoldedImages).with(BlinnPhong),
+        knows(ShadingNormals).with(BlinnPhong),
+        knows(VertexColors).with(BlinnPhong),
+        knows(Specular).with(BlinnPhong),
+    ]],
+    bindings: &[
+        shared::PAIR_TAPS,
+        &[
+            before("visibility_previous", Image::Visibility).with(BlinnPhong),
+            turn("now_filtered", Image::PairMomentsNow).with(HistoryRatio),
+            turn("before_filtered", Image::PairMomentsBefore).with(HistoryRatio),
+            out("ratio_out", Image::Ratio).with(HistoryRatio),
+            out("gradient_out", Image::Gradient(0)),
         ],
-    ));
-    Step { pass: Pass::Gradient, features, grid: Grid::Strata, iteration: 0, bindings: all }
-}
+    ],
+    traces: false,
+};

@@ -1,19 +1,16 @@
 //! One iteration of the gradient's filter, see shaders/gradient_filter.wgsl.
 
-use super::Pass;
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-pub(crate) fn step(features: Features, iteration: u32) -> Step {
-    let from = (iteration % 2) as u8;
-    Step {
-        pass: Pass::GradientFilter,
-        features: features.and(Features::of(&[Feature::AcrossSurfaces])),
-        grid: Grid::Strata,
-        iteration,
-        bindings: vec![
-            ("samples", Slot::Now(Image::Samples)),
-            ("gradient", Slot::Now(Image::Gradient(from))),
-            ("gradient_out", Slot::Now(Image::Gradient(1 - from))),
-        ],
-    }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "gradient_filter",
+    source: include_str!("../../shaders/gradient_filter.wgsl"),
+    grid: Strata,
+    features: &[&[knows(AcrossSurfaces)]],
+    bindings: &[&[
+        now("samples", Image::Samples).at_many_taps(),
+        turn("gradient", Image::Gradient).at_many_taps(),
+        next_turn_out("gradient_out", Image::Gradient),
+    ]],
+    traces: false,
+};

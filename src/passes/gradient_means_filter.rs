@@ -1,21 +1,18 @@
-//! One level of the means' pyramid, see shaders/gradient_means_filter.wgsl.
+//! The next coarser level of the means' pyramid, see shaders/gradient_means_filter.wgsl.
 
-use super::Pass;
-use crate::plan::{Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-/// From this level to the next.
-pub(crate) fn step(_: Features, level: u8) -> Step {
-    Step {
-        pass: Pass::GradientMeansFilter,
-        features: Features::default(),
-        grid: Grid::Strata,
-        iteration: level.into(),
-        bindings: vec![
-            ("samples", Slot::Now(Image::Samples)),
-            ("now", Slot::Now(Image::MeansNow(level))),
-            ("before", Slot::Now(Image::MeansBefore(level))),
-            ("now_out", Slot::Now(Image::MeansNow(level + 1))),
-            ("before_out", Slot::Now(Image::MeansBefore(level + 1))),
-        ],
-    }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "gradient_means_filter",
+    source: include_str!("../../shaders/gradient_means_filter.wgsl"),
+    grid: Strata,
+    features: &[],
+    bindings: &[&[
+        now("samples", Image::Samples).at_many_taps(),
+        level("now", Image::MeansNow).at_many_taps(),
+        level("before", Image::MeansBefore),
+        next_level_out("now_out", Image::MeansNow),
+        next_level_out("before_out", Image::MeansBefore),
+    ]],
+    traces: false,
+};

@@ -1,22 +1,18 @@
 //! One iteration of the pairs' filter, see shaders/gradient_pairs_filter.wgsl.
 
-use super::Pass;
-use crate::plan::{Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-pub(crate) fn step(_: Features, iteration: u32) -> Step {
-    let from = (iteration % 2) as u8;
-    let to = 1 - from;
-    Step {
-        pass: Pass::GradientPairsFilter,
-        features: Features::default(),
-        grid: Grid::Strata,
-        iteration,
-        bindings: vec![
-            ("samples", Slot::Now(Image::Samples)),
-            ("now", Slot::Now(Image::PairsNow(from))),
-            ("before", Slot::Now(Image::PairsBefore(from))),
-            ("now_out", Slot::Now(Image::PairsNow(to))),
-            ("before_out", Slot::Now(Image::PairsBefore(to))),
-        ],
-    }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "gradient_pairs_filter",
+    source: include_str!("../../shaders/gradient_pairs_filter.wgsl"),
+    grid: Strata,
+    features: &[],
+    bindings: &[&[
+        now("samples", Image::Samples).at_many_taps(),
+        turn("now", Image::PairMomentsNow).at_many_taps(),
+        turn("before", Image::PairMomentsBefore),
+        next_turn_out("now_out", Image::PairMomentsNow),
+        next_turn_out("before_out", Image::PairMomentsBefore),
+    ]],
+    traces: false,
+};

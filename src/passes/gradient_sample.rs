@@ -1,26 +1,20 @@
-//! Choice of the gradient's samples, see shaders/gradient_sample.wgsl.
+//! The choice of each stratum's path to repeat, see shaders/gradient_sample.wgsl.
 
-use super::{Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-pub(crate) fn step(features: Features) -> Step {
-    let features = features.and(Features::of(&[Feature::Objects]));
-    Step {
-        pass: Pass::GradientSample,
-        features,
-        grid: Grid::Strata,
-        iteration: 0,
-        bindings: bindings(
-            features,
-            [
-                ("guide", Slot::Now(Image::Guide), &[]),
-                ("guide_previous", Slot::Before(Image::Guide), &[]),
-                ("motion", Slot::Now(Image::Motion), &[]),
-                ("object", Slot::Now(Image::Object), &[Feature::Objects]),
-                ("object_previous", Slot::Before(Image::Object), &[Feature::Objects]),
-                ("samples_previous", Slot::Before(Image::Samples), &[]),
-                ("samples_out", Slot::Now(Image::Samples), &[]),
-            ],
-        ),
-    }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "gradient_sample",
+    source: include_str!("../../shaders/gradient_sample.wgsl"),
+    grid: Strata,
+    features: &[&[knows(Objects)]],
+    bindings: &[&[
+        now("guide", Image::Guide),
+        before("guide_previous", Image::Guide),
+        now("motion", Image::Motion),
+        now("object", Image::Object).with(Objects),
+        before("object_previous", Image::Object).with(Objects),
+        before("samples_previous", Image::Samples),
+        out("samples_out", Image::Samples),
+    ]],
+    traces: false,
+};

@@ -1,37 +1,28 @@
-//! A host's pairs for the gradient, see shaders/ingest_pairs.wgsl.
+//! A host's pairs taken in for the gradient, see shaders/ingest_pairs.wgsl.
 
-use super::{Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-const FEATURES: &[Feature] =
-    &[Feature::LuminancePairs, Feature::StratumPairs, Feature::Albedo, Feature::Modulated, Feature::Diagnostics];
-
-/// Where the albedo is read, if pairs are divided by it.
-const DIVIDED: [Feature; 2] = [Feature::Albedo, Feature::Modulated];
-
-pub(crate) fn step(features: Features) -> Step {
-    let mut known = Features::of(FEATURES);
-    if DIVIDED.iter().all(|&feature| features.has(feature)) {
-        known = known.with(Feature::HostLight);
-    }
-    let features = features.and(known);
-    let albedo = if features.has(Feature::HostLight) { Slot::Host } else { Slot::Now(Image::Albedo) };
-    Step {
-        pass: Pass::IngestPairs,
-        features,
-        grid: Grid::Strata,
-        iteration: 0,
-        bindings: bindings(
-            features,
-            [
-                ("guide", Slot::Now(Image::Guide), &[]),
-                ("current", Slot::Host, &[]),
-                ("previous", Slot::Host, &[]),
-                ("albedo", albedo, &DIVIDED),
-                ("samples_out", Slot::Now(Image::Samples), &[]),
-                ("pair_now_out", Slot::Now(Image::PairNow), &[]),
-                ("pair_before_out", Slot::Now(Image::PairBefore), &[]),
-            ],
-        ),
-    }
-}
+/// The albedo is read where pairs are divided by it.
+pub(crate) static PASS: Pass = Pass {
+    name: "ingest_pairs",
+    source: include_str!("../../shaders/ingest_pairs.wgsl"),
+    grid: Strata,
+    features: &[&[
+        knows(LuminancePairs),
+        knows(StratumPairs),
+        knows(Albedo),
+        knows(Modulated),
+        knows(HostLight).with(Albedo).with(Modulated),
+        knows(Diagnostics),
+    ]],
+    bindings: &[&[
+        now("guide", Image::Guide),
+        host("current", HostView::PairNow),
+        host("previous", HostView::PairBefore),
+        now("albedo", Image::Albedo).or_host(HostLight, HostView::Albedo).with(Albedo).with(Modulated),
+        out("samples_out", Image::Samples),
+        out("pair_now_out", Image::HostPairNow),
+        out("pair_before_out", Image::HostPairBefore),
+    ]],
+    traces: false,
+};

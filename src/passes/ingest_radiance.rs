@@ -1,39 +1,30 @@
-//! A host's radiance, demodulated, see shaders/ingest_radiance.wgsl.
+//! A host's radiance taken in and demodulated, see shaders/ingest_radiance.wgsl.
 
-use super::{Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-const FEATURES: &[Feature] = &[
-    Feature::Albedo,
-    Feature::DirectEmission,
-    Feature::Modulated,
-    Feature::Diagnostics,
-    Feature::Reshade,
-    Feature::MissingSamples,
-];
-
-pub(crate) fn step(features: Features) -> Step {
-    use Feature::{Albedo, DirectEmission, Modulated, Reshade};
-    let features = features.and(Features::of(FEATURES));
-    Step {
-        pass: Pass::IngestRadiance,
-        features,
-        grid: Grid::Pixels,
-        iteration: 0,
-        bindings: bindings(
-            features,
-            [
-                ("radiance", Slot::Host, &[]),
-                ("albedo", Slot::Host, &[Albedo]),
-                ("emission", Slot::Host, &[DirectEmission]),
-                ("guide", Slot::Now(Image::Guide), &[Albedo, Modulated]),
-                ("samples", Slot::Now(Image::Samples), &[Reshade]),
-                // Which albedo a repeated path has matters only where it is divided by.
-                ("albedo_previous", Slot::Before(Image::Albedo), &[Reshade, Albedo, Modulated]),
-                ("radiance_out", Slot::Now(Image::Radiance), &[]),
-                ("albedo_out", Slot::Now(Image::Albedo), &[Albedo]),
-                ("emission_out", Slot::Now(Image::Emission), &[DirectEmission]),
-            ],
-        ),
-    }
-}
+/// The albedo of a repeated path matters only where radiance is divided by it.
+pub(crate) static PASS: Pass = Pass {
+    name: "ingest_radiance",
+    source: include_str!("../../shaders/ingest_radiance.wgsl"),
+    grid: Pixels,
+    features: &[&[
+        knows(Albedo),
+        knows(DirectEmission),
+        knows(Modulated),
+        knows(Diagnostics),
+        knows(Reshade),
+        knows(MissingSamples),
+    ]],
+    bindings: &[&[
+        host("radiance", HostView::Radiance),
+        host("albedo", HostView::Albedo).with(Albedo),
+        host("emission", HostView::Emission).with(DirectEmission),
+        now("guide", Image::Guide).with(Albedo).with(Modulated),
+        now("samples", Image::Samples).with(Reshade),
+        before("albedo_previous", Image::Albedo).with(Reshade).with(Albedo).with(Modulated),
+        out("radiance_out", Image::Radiance),
+        out("albedo_out", Image::Albedo).with(Albedo),
+        out("emission_out", Image::Emission).with(DirectEmission),
+    ]],
+    traces: false,
+};

@@ -1,37 +1,30 @@
-//! A host's depth, normals and motion, see shaders/ingest_surface.wgsl.
+//! A host's depth, normals and motion taken in, see shaders/ingest_surface.wgsl.
 
-use super::{Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-const FEATURES: &[Feature] = &[
-    Feature::OctahedralNormals,
-    Feature::MappedNormals,
-    Feature::PackedNormals,
-    Feature::PreviousDepth,
-    Feature::HostMotion,
-    Feature::Objects,
-    Feature::FloatObjects,
-    Feature::Diagnostics,
-];
-
-pub(crate) fn step(features: Features) -> Step {
-    let mut features = features.and(Features::of(FEATURES));
-    if features.has(Feature::HostMotion) {
-        features = features.without(Feature::PreviousDepth);
-    }
-    let mut bindings = bindings(
-        features,
-        [
-            ("depth", Slot::Host, &[]),
-            ("normal", Slot::Host, &[]),
-            ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
-            ("instance", Slot::Host, &[Feature::Objects]),
-            ("guide_out", Slot::Now(Image::Guide), &[]),
-            ("object_out", Slot::Now(Image::Object), &[Feature::Objects]),
-        ],
-    );
-    if !features.has(Feature::HostMotion) {
-        bindings.extend([("motion", Slot::Host), ("motion_out", Slot::Now(Image::Motion))]);
-    }
-    Step { pass: Pass::IngestSurface, features, grid: Grid::Pixels, iteration: 0, bindings }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "ingest_surface",
+    source: include_str!("../../shaders/ingest_surface.wgsl"),
+    grid: Pixels,
+    features: &[&[
+        knows(OctahedralNormals),
+        knows(MappedNormals),
+        knows(PackedNormals),
+        knows(PreviousDepth).unless(HostMotion),
+        knows(HostMotion),
+        knows(Objects),
+        knows(FloatObjects),
+        knows(Diagnostics),
+    ]],
+    bindings: &[&[
+        host("depth", HostView::Depth),
+        host("normal", HostView::Normal),
+        host("motion", HostView::Motion).unless(HostMotion),
+        host("previous_depth", HostView::PreviousDepth).with(PreviousDepth),
+        host("instance", HostView::Instance).with(Objects),
+        out("guide_out", Image::Guide),
+        out("motion_out", Image::Motion).unless(HostMotion),
+        out("object_out", Image::Object).with(Objects),
+    ]],
+    traces: false,
+};

@@ -1,32 +1,20 @@
-//! Samples that may be outliers, see shaders/outlier_candidates.wgsl.
+//! The samples that may be outliers, see shaders/outlier_candidates.wgsl.
 
-use super::{Pass, bindings, modulation, sample_and_history};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-const FEATURES: &[Feature] = &[
-    Feature::Still,
-    Feature::InPlace,
-    Feature::HostMotion,
-    Feature::HostLight,
-    Feature::MissingSamples,
-    Feature::Steady,
-];
-
-pub(crate) fn step(given: Features) -> Step {
-    let mut features = given.and(Features::of(FEATURES));
-    if features.has(Feature::Still) {
-        features = features.without(Feature::HostMotion);
-    }
-    let features = modulation(given, features);
-    let mut all = sample_and_history(features);
-    all.extend(bindings(
-        features,
-        [
-            ("samples", Slot::Now(Image::Samples), &[Feature::InPlace]),
-            ("candidates_previous", Slot::Before(Image::Candidates), &[]),
-            ("limit_previous", Slot::Before(Image::OutlierLimit), &[]),
-            ("candidates_out", Slot::Now(Image::Candidates), &[]),
+pub(crate) static PASS: Pass = Pass {
+    name: "outlier_candidates",
+    source: include_str!("../../shaders/outlier_candidates.wgsl"),
+    grid: Strata,
+    features: &[shared::HOST_INPUT, &[knows(Still), knows(InPlace), knows(MissingSamples), knows(Steady)]],
+    bindings: &[
+        shared::SAMPLE_AND_HISTORY,
+        &[
+            now("samples", Image::Samples).with(InPlace),
+            before("candidates_previous", Image::Candidates),
+            before("limit_previous", Image::OutlierLimit),
+            out("candidates_out", Image::Candidates),
         ],
-    ));
-    Step { pass: Pass::OutlierCandidates, features, grid: Grid::Strata, iteration: 0, bindings: all }
-}
+    ],
+    traces: false,
+};

@@ -1,18 +1,16 @@
-//! Strata with candidates in a row, see shaders/outlier_counts.wgsl.
+//! Counts of the candidates in each row of strata, see shaders/outlier_counts.wgsl.
 
-use super::Pass;
-use crate::plan::{Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-pub(crate) fn step() -> Step {
-    Step {
-        pass: Pass::OutlierCounts,
-        features: Features::default(),
-        grid: Grid::Strata,
-        iteration: 0,
-        bindings: vec![
-            ("candidates", Slot::Now(Image::Candidates)),
-            ("counts_out", Slot::Now(Image::CandidateCounts)),
-            ("sums_out", Slot::Now(Image::CandidateSums)),
-        ],
-    }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "outlier_counts",
+    source: include_str!("../../shaders/outlier_counts.wgsl"),
+    grid: Strata,
+    features: &[],
+    bindings: &[&[
+        now("candidates", Image::Candidates),
+        out("counts_out", Image::CandidateCounts),
+        out("sums_out", Image::CandidateSums),
+    ]],
+    traces: false,
+};

@@ -1,19 +1,17 @@
-//! How far above its level a sample is believed, see shaders/outlier_limit.wgsl.
+//! The limit above its level up to which a sample is believed, see shaders/outlier_limit.wgsl.
 
-use super::Pass;
-use crate::plan::{Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-pub(crate) fn step() -> Step {
-    Step {
-        pass: Pass::OutlierLimit,
-        features: Features::default(),
-        grid: Grid::Strata,
-        iteration: 0,
-        bindings: vec![
-            ("candidates", Slot::Now(Image::Candidates)),
-            ("candidate_counts", Slot::Now(Image::CandidateCounts)),
-            ("sums", Slot::Now(Image::CandidateSums)),
-            ("limit_out", Slot::Now(Image::OutlierLimit)),
-        ],
-    }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "outlier_limit",
+    source: include_str!("../../shaders/outlier_limit.wgsl"),
+    grid: Strata,
+    features: &[],
+    bindings: &[&[
+        now("candidates", Image::Candidates),
+        now("candidate_counts", Image::CandidateCounts),
+        now("sums", Image::CandidateSums),
+        out("limit_out", Image::OutlierLimit),
+    ]],
+    traces: false,
+};

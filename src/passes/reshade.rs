@@ -1,25 +1,19 @@
-//! What a host needs to repeat paths, see shaders/reshade.wgsl.
+//! The surfaces whose paths a host is to repeat, see shaders/reshade.wgsl.
 
-use super::{Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-pub(crate) fn step(features: Features) -> Step {
-    let features = features.and(Features::of(&[Feature::PreviousDepth]));
-    Step {
-        pass: Pass::Reshade,
-        features,
-        grid: Grid::Strata,
-        iteration: 0,
-        bindings: bindings(
-            features,
-            [
-                ("samples", Slot::Now(Image::Samples), &[]),
-                ("guide_previous", Slot::Before(Image::Guide), &[]),
-                ("motion", Slot::Host, &[]),
-                ("previous_depth", Slot::Host, &[Feature::PreviousDepth]),
-                ("repeats_out", Slot::Now(Image::Repeats), &[]),
-                ("shifts_out", Slot::Now(Image::Shifts), &[]),
-            ],
-        ),
-    }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "reshade",
+    source: include_str!("../../shaders/reshade.wgsl"),
+    grid: Strata,
+    features: &[&[knows(PreviousDepth)]],
+    bindings: &[&[
+        now("samples", Image::Samples),
+        before("guide_previous", Image::Guide),
+        host("motion", HostView::Motion),
+        host("previous_depth", HostView::PreviousDepth).with(PreviousDepth),
+        out("repeats_out", Image::Repeats),
+        out("shifts_out", Image::Shifts),
+    ]],
+    traces: false,
+};

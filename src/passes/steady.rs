@@ -1,20 +1,18 @@
-//! The last output blended in, see shaders/steady.wgsl.
+//! The last output blended in, against flicker, see shaders/steady.wgsl.
 
-use super::Pass;
-use crate::plan::{Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-/// `color` is where the filtered colour is.
-pub(crate) fn step(_: Features, color: Image) -> Step {
-    Step {
-        pass: Pass::Steady,
-        features: Features::default(),
-        grid: Grid::Pixels,
-        iteration: 0,
-        bindings: vec![
-            ("guide", Slot::Now(Image::Guide)),
-            ("color", Slot::Now(color)),
-            ("reprojected", Slot::Now(Image::Reprojected)),
-            ("output_out", Slot::Now(Image::Output)),
-        ],
-    }
-}
+/// The plan names the image that holds the filtered colour.
+pub(crate) static PASS: Pass = Pass {
+    name: "steady",
+    source: include_str!("../../shaders/steady.wgsl"),
+    grid: Pixels,
+    features: &[],
+    bindings: &[&[
+        now("guide", Image::Guide).at_many_taps(),
+        chosen("color").at_many_taps(),
+        now("reprojected", Image::Reprojected),
+        out("output_out", Image::Output),
+    ]],
+    traces: false,
+};

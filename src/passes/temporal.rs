@@ -1,53 +1,47 @@
-//! Reprojection and blending, see shaders/temporal.wgsl.
+//! Reprojection of the history and its blending with the new sample, see shaders/temporal.wgsl.
 
-use super::{Pass, bindings, modulation, reprojection};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-const FEATURES: &[Feature] = &[
-    Feature::Objects,
-    Feature::Still,
-    Feature::Gradient,
-    Feature::AcrossSurfaces,
-    Feature::InPlace,
-    Feature::HistoryRatio,
-    Feature::ExternalLambda,
-    Feature::Confidence,
-    Feature::BlendByLambda,
-    Feature::Feedback,
-    Feature::HostMotion,
-    Feature::HostLight,
-    Feature::MissingSamples,
-    Feature::Steady,
-    Feature::Outliers,
-    Feature::KeepWeights,
-];
-
-/// `gradient` is where the filtered gradient is, if there is one.
-pub(crate) fn step(given: Features, gradient: Option<Image>) -> Step {
-    let mut features = given.and(Features::of(FEATURES));
-    if features.has(Feature::Still) {
-        features = features.without(Feature::Objects).without(Feature::HostMotion);
-    }
-    let mut features = modulation(given, features);
-    if features.has(Feature::Outliers) {
-        features = features.or(given.and(Features::of(&[Feature::Diagnostics])));
-    }
-    let gradient = gradient.unwrap_or(Image::Gradient(0));
-    let mut all = reprojection(features);
-    all.extend(bindings(
-        features,
-        [
-            ("feedback_out", Slot::Now(Image::Feedback), &[Feature::Feedback]),
-            ("samples", Slot::Now(Image::Samples), &[Feature::Gradient]),
-            ("candidates", Slot::Now(Image::Candidates), &[Feature::Outliers]),
-            ("limit", Slot::Now(Image::OutlierLimit), &[Feature::Outliers]),
-            ("gradient", Slot::Now(gradient), &[Feature::Gradient]),
-            ("ratio", Slot::Now(Image::Ratio), &[Feature::HistoryRatio]),
-            ("external_lambda", Slot::Host, &[Feature::ExternalLambda]),
-            ("reprojected_out", Slot::Now(Image::Reprojected), &[Feature::Steady]),
-            ("history_out", Slot::Now(Image::History), &[]),
-            ("weights_out", Slot::Now(Image::Weights), &[Feature::KeepWeights]),
+/// The plan names the image that holds the filtered gradient.
+pub(crate) static PASS: Pass = Pass {
+    name: "temporal",
+    source: include_str!("../../shaders/temporal.wgsl"),
+    grid: Pixels,
+    features: &[
+        shared::HOST_INPUT,
+        &[
+            knows(Objects).unless(Still),
+            knows(Still),
+            knows(Gradient),
+            knows(AcrossSurfaces),
+            knows(InPlace),
+            knows(HistoryRatio),
+            knows(ExternalLambda),
+            knows(Confidence),
+            knows(BlendByLambda),
+            knows(Feedback),
+            knows(MissingSamples),
+            knows(Steady),
+            knows(Outliers),
+            knows(Diagnostics).with(Outliers),
+            knows(KeepWeights),
         ],
-    ));
-    Step { pass: Pass::Temporal, features, grid: Grid::Pixels, iteration: 0, bindings: all }
-}
+    ],
+    bindings: &[
+        shared::SAMPLE_AND_HISTORY,
+        shared::SAME_SURFACE,
+        &[
+            now("samples", Image::Samples).with(Gradient),
+            chosen("gradient").with(Gradient),
+            now("ratio", Image::Ratio).with(HistoryRatio),
+            host("external_lambda", HostView::Lambda).with(ExternalLambda),
+            now("candidates", Image::Candidates).with(Outliers),
+            now("limit", Image::OutlierLimit).with(Outliers),
+            out("feedback_out", Image::Feedback).with(Feedback),
+            out("reprojected_out", Image::Reprojected).with(Steady),
+            out("history_out", Image::History),
+            out("weights_out", Image::Weights).with(KeepWeights),
+        ],
+    ],
+    traces: false,
+};

@@ -1,46 +1,37 @@
-//! Paths from the visible surfaces, see shaders/trace.wgsl.
+//! Paths from the visible surfaces: demodulated radiance, albedo and emission, see shaders/trace.wgsl.
 
-use super::{GEOMETRY, Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-const FEATURES: &[Feature] = &[
-    Feature::Specular,
-    Feature::Lights,
-    Feature::Emitters,
-    Feature::PunctualLights,
-    Feature::EnvironmentLight,
-    Feature::DirectEmission,
-    Feature::LightSamplesOnly,
-    Feature::ScatteredRaysOnly,
-    Feature::Reshade,
-];
-
-/// One of several dispatches that share the paths.
-pub(crate) fn step(features: Features, batch: u32, batches: u32) -> Step {
-    use Feature::{DirectEmission, EarlierPaths, LaterPaths, Reshade};
-    let mut features = features.and(GEOMETRY.iter().chain(FEATURES).copied().collect());
-    if batch > 0 {
-        features = features.with(EarlierPaths);
-    }
-    let last = batch + 1 == batches;
-    if !last {
-        features = features.with(LaterPaths);
-    }
-    let turn = (batch % 2) as u8;
-    let mut bindings = bindings(
-        features,
-        [
-            ("visibility", Slot::Now(Image::Visibility), &[]),
-            ("visibility_previous", Slot::Before(Image::Visibility), &[Reshade]),
-            ("samples", Slot::Now(Image::Samples), &[Reshade]),
-            ("paths_before", Slot::Now(Image::Paths(1 - turn)), &[EarlierPaths]),
-            ("paths_out", Slot::Now(Image::Paths(turn)), &[LaterPaths]),
+/// Dispatches that share a frame's paths hand their sums on; the last one writes the images.
+pub(crate) static PASS: Pass = Pass {
+    name: "trace",
+    source: include_str!("../../shaders/trace.wgsl"),
+    grid: Pixels,
+    features: &[
+        shared::GEOMETRY,
+        &[
+            knows(Specular),
+            knows(Lights),
+            knows(Emitters),
+            knows(PunctualLights),
+            knows(EnvironmentLight),
+            knows(DirectEmission),
+            knows(LightSamplesOnly),
+            knows(ScatteredRaysOnly),
+            knows(Reshade),
+            knows(EarlierPaths),
+            knows(LaterPaths),
         ],
-    );
-    if last {
-        bindings.push(("radiance_out", Slot::Now(Image::Radiance)));
-        bindings.push(("albedo_out", Slot::Now(Image::Albedo)));
-        bindings.extend(features.has(DirectEmission).then_some(("emission_out", Slot::Now(Image::Emission))));
-    }
-    Step { pass: Pass::Trace, features, grid: Grid::Pixels, iteration: batch, bindings }
-}
+    ],
+    bindings: &[&[
+        now("visibility", Image::Visibility),
+        before("visibility_previous", Image::Visibility).with(Reshade),
+        now("samples", Image::Samples).with(Reshade),
+        other_turn("paths_before", Image::Paths).with(EarlierPaths),
+        turn_out("paths_out", Image::Paths).with(LaterPaths),
+        out("radiance_out", Image::Radiance).unless(LaterPaths),
+        out("albedo_out", Image::Albedo).unless(LaterPaths),
+        out("emission_out", Image::Emission).with(DirectEmission).unless(LaterPaths),
+    ]],
+    traces: true,
+};

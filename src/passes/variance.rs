@@ -1,26 +1,17 @@
-//! Variance of short histories, see shaders/variance.wgsl.
+//! Variance of each pixel's luminance, from its neighbours where the history is short, see shaders/variance.wgsl.
 
-use super::{Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-const FEATURES: &[Feature] =
-    &[Feature::Feedback, Feature::VarianceOfMean, Feature::MissingSamples, Feature::RepeatedNoise];
-
-pub(crate) fn step(features: Features) -> Step {
-    let features = features.and(Features::of(FEATURES));
-    Step {
-        pass: Pass::Variance,
-        features,
-        grid: Grid::Pixels,
-        iteration: 0,
-        bindings: bindings(
-            features,
-            [
-                ("guide", Slot::Now(Image::Guide), &[]),
-                ("history", Slot::Now(Image::History), &[]),
-                ("feedback", Slot::Now(Image::Feedback), &[Feature::Feedback]),
-                ("color_out", Slot::Now(Image::Color(0)), &[]),
-            ],
-        ),
-    }
-}
+pub(crate) static PASS: Pass = Pass {
+    name: "variance",
+    source: include_str!("../../shaders/variance.wgsl"),
+    grid: Pixels,
+    features: &[&[knows(Feedback), knows(VarianceOfMean), knows(MissingSamples), knows(RepeatedNoise)]],
+    bindings: &[&[
+        now("guide", Image::Guide),
+        now("history", Image::History),
+        now("feedback", Image::Feedback).with(Feedback),
+        out("color_out", Image::Color(0)),
+    ]],
+    traces: false,
+};

@@ -1,145 +1,251 @@
-//! An intermediate image shown, see shaders/view.wgsl.
+//! An intermediate image shown, see shaders/view.wgsl: a row for each view.
 
-use super::{Pass, bindings, gradient_pairs};
-use crate::plan::{Feature, Features, Grid, Image, Plan, Slot, Step};
-use crate::{Error, Mode, View};
+use super::prelude::*;
+use super::{Features, Grid, Nth, Slot, Step};
+use crate::View;
 use wgpu::TextureFormat;
 
-/// The step that shows a view of what a plan's steps have left, in a target of this format.
-/// `holds` tells which of their images are still there.
+pub(crate) static PASS: Pass = Pass {
+    name: "view",
+    source: include_str!("../../shaders/view.wgsl"),
+    grid: Grid::Pixels,
+    features: &[&[knows(TargetPicture), knows(TargetF16)]],
+    // Each view has its own.
+    bindings: &[],
+    traces: false,
+};
+
+/// A view, as the shader's block of its name shows it.
+struct Row {
+    /// The conditions under which a frame has it, each with the reason that is given where it has not.
+    needs: &'static [(Need, &'static str)],
+    features: &'static [Known],
+    bindings: &'static [Binding],
+}
+
+/// A condition on the frame's plan.
+enum Need {
+    /// One of these features.
+    Any(&'static [Feature]),
+    /// Not this feature.
+    Not(Feature),
+    /// Rays, which the denoiser has traced itself.
+    Traced,
+}
+
+const FILTERED: (Need, &str) = (Need::Not(Unfiltered), "nothing is filtered in this mode");
+const HISTORY: (Need, &str) = (Need::Not(Unfiltered), "there is no history in this mode");
+const REPEATED: &[(Need, &str)] = &[
+    (Need::Not(Unchanged), "nothing changed, so that no path was repeated"),
+    (Need::Any(&[Reshade, Pairs]), "the gradient does not come from paths"),
+];
+
+const RADIANCE: Binding = now("radiance", Image::Radiance);
+const ALBEDO: Binding = now("albedo", Image::Albedo);
+const EMISSION: Binding = now("emission", Image::Emission);
+const GUIDE: Binding = now("guide", Image::Guide);
+const MOTION: Binding = now("motion", Image::Motion);
+const WEIGHTS: Binding = now("weights", Image::Weights);
+const SAMPLES: Binding = now("samples", Image::Samples);
+const COLOR: Binding = chosen("color");
+
+static TARGET: Binding = target("target_out");
+
+/// A view that every frame has.
+const PLAIN: Row = Row { needs: &[], features: &[], bindings: &[] };
+
+const fn row(view: View) -> Row {
+    match view {
+        View::Denoised => {
+            const {
+                Row {
+                    needs: &[FILTERED],
+                    features: &[
+                        knows(TemporalOnly),
+                        knows(Steady),
+                        knows(Background),
+                        knows(Albedo),
+                        knows(DirectEmission),
+                    ],
+                    bindings: &[
+                        COLOR,
+                        RADIANCE.with(Background),
+                        GUIDE.with(Background),
+                        ALBEDO.with(Albedo),
+                        EMISSION.with(DirectEmission),
+                    ],
+                }
+            }
+        }
+        View::Noisy => {
+            const {
+                Row {
+                    features: &[knows(Albedo), knows(DirectEmission)],
+                    bindings: &[RADIANCE, ALBEDO.with(Albedo), EMISSION.with(DirectEmission)],
+                    ..PLAIN
+                }
+            }
+        }
+        View::Albedo => {
+            const {
+                Row {
+                    needs: &[(Need::Any(&[Albedo]), "the host gave no albedo")],
+                    features: &[knows(Albedo)],
+                    bindings: &[ALBEDO],
+                }
+            }
+        }
+        View::Emission => {
+            const {
+                Row {
+                    needs: &[(Need::Any(&[DirectEmission]), "nothing emits, or the host gave no emission")],
+                    features: &[knows(DirectEmission)],
+                    bindings: &[EMISSION],
+                }
+            }
+        }
+        View::Normal | View::Depth => const { Row { bindings: &[GUIDE], ..PLAIN } },
+        View::TriangleId => {
+            const {
+                Row {
+                    needs: &[(Need::Traced, "there is no visibility buffer")],
+                    bindings: &[now("visibility", Image::Visibility)],
+                    ..PLAIN
+                }
+            }
+        }
+        View::Object => {
+            const {
+                Row {
+                    needs: &[(Need::Any(&[Objects]), "objects are not told apart")],
+                    bindings: &[now("object", Image::Object)],
+                    ..PLAIN
+                }
+            }
+        }
+        View::Rays => {
+            const { Row { needs: &[(Need::Traced, "the host traced the rays")], bindings: &[ALBEDO], ..PLAIN } }
+        }
+        View::Motion => const { Row { bindings: &[MOTION], ..PLAIN } },
+        View::MotionError => const { Row { bindings: &[GUIDE, MOTION], ..PLAIN } },
+        View::Gradient => {
+            const {
+                Row {
+                    needs: &[(Need::Any(&[Gradient, Unchanged]), "the gradient is off")],
+                    features: &[knows(Unchanged)],
+                    bindings: &[chosen("gradient").unless(Unchanged)],
+                }
+            }
+        }
+        View::Lambda | View::Alpha => const { Row { needs: &[HISTORY], bindings: &[WEIGHTS], ..PLAIN } },
+        View::Outliers => {
+            const {
+                Row {
+                    needs: &[
+                        HISTORY,
+                        (Need::Any(&[Outliers]), "every sample is believed: set FilterSettings::outlier_limit"),
+                    ],
+                    bindings: &[WEIGHTS],
+                    ..PLAIN
+                }
+            }
+        }
+        View::HistoryLength | View::Variance => {
+            const { Row { needs: &[HISTORY], bindings: &[now("history", Image::History)], ..PLAIN } }
+        }
+        View::NonFinite => {
+            const { Row { needs: &[FILTERED], features: &[knows(TemporalOnly), knows(Steady)], bindings: &[COLOR] } }
+        }
+        View::PairNow => {
+            const {
+                Row {
+                    needs: REPEATED,
+                    features: &[knows(Albedo), knows(Pairs)],
+                    bindings: &[
+                        SAMPLES,
+                        RADIANCE.unless(Pairs),
+                        now("radiance", Image::HostPairNow).with(Pairs),
+                        ALBEDO.with(Albedo),
+                    ],
+                }
+            }
+        }
+        View::PairBefore => {
+            const {
+                Row {
+                    needs: REPEATED,
+                    features: &[knows(Albedo), knows(Pairs)],
+                    bindings: &[
+                        SAMPLES,
+                        before("radiance", Image::Radiance).unless(Pairs),
+                        now("radiance", Image::HostPairBefore).with(Pairs),
+                        ALBEDO.with(Albedo),
+                    ],
+                }
+            }
+        }
+        View::Mean => {
+            const {
+                Row {
+                    needs: &[(Need::Any(&[Accumulate]), "frames are only summed in Mode::Reference")],
+                    bindings: &[now("sum", Image::Sum)],
+                    ..PLAIN
+                }
+            }
+        }
+    }
+}
+
+/// The frame whose images are shown.
+pub(crate) struct Shown {
+    /// The features of its plan.
+    pub features: Features,
+    /// True if the denoiser traced its rays.
+    pub traced: bool,
+    /// The image that holds the filtered colour.
+    pub color: Option<Image>,
+    /// The image that holds the filtered gradient.
+    pub gradient: Option<Image>,
+}
+
+/// The step that shows a view of a frame in a target of this format, or the reason why the frame has no such view.
+/// `holds` says which of its images are still there.
 pub(crate) fn step(
     view: View,
-    plan: &Plan,
-    mode: Mode,
-    target: TextureFormat,
+    frame: &Shown,
+    format: TextureFormat,
     holds: impl Fn(Image) -> bool,
-) -> Result<Step, Error> {
-    let missing = |reason| Err(Error::NoView { view, reason });
-    let has = |image| plan.images().iter().any(|(i, _)| *i == image);
-    let color = match (view, plan.color) {
-        (View::Denoised | View::NonFinite, Some(image)) => Slot::Now(image),
-        (View::Denoised | View::NonFinite, None) => return missing("nothing is filtered in this mode"),
-        _ => Slot::Target,
+) -> Result<Step, &'static str> {
+    let row = row(view);
+    for (need, reason) in row.needs {
+        let met = match *need {
+            Need::Any(features) => frame.features.has_any(Features::of(features)),
+            Need::Not(feature) => !frame.features.has(feature),
+            Need::Traced => frame.traced,
+        };
+        if !met {
+            return Err(reason);
+        }
+    }
+    let targets = Features::of(&[TargetPicture, TargetF16]);
+    let features = frame.features.without(TargetPicture).without(TargetF16);
+    let features = match format {
+        TextureFormat::Rgba8Unorm => features.with(TargetPicture),
+        TextureFormat::Rgba16Float => features.with(TargetF16),
+        _ => features,
     };
-    let gradient = match (view, plan.gradient) {
-        (View::Gradient, Some(image)) => Slot::Now(image),
-        (View::Gradient, None) if !plan.features.has(Feature::Unchanged) => return missing("the gradient is off"),
-        _ => Slot::Target,
-    };
-    if matches!(view, View::Lambda | View::Alpha | View::Outliers | View::HistoryLength | View::Variance)
-        && mode != Mode::Denoise
-    {
-        return missing("there is no history in this mode");
+    let known = row.features.iter().filter_map(|known| known.of(features)).collect::<Features>();
+    let features = known.or(features.and(targets));
+    let image = if view == View::Gradient { frame.gradient } else { frame.color };
+    let bindings: Vec<_> = row
+        .bindings
+        .iter()
+        .chain([&TARGET])
+        .filter(|binding| binding.is_bound(features))
+        .map(|binding| binding.resolve(features, Nth::of(image)))
+        .collect();
+    if bindings.iter().any(|bound| matches!(bound.slot, Slot::Now(image) if !holds(image))) {
+        return Err("its image was not kept: set DenoiserDescriptor::views");
     }
-    if view == View::Outliers && !plan.features.has(Feature::Outliers) {
-        return missing("every sample is believed: set FilterSettings::outlier_limit");
-    }
-    if view == View::TriangleId && !has(Image::Visibility) {
-        return missing("there is no visibility buffer");
-    }
-    if view == View::Albedo && !plan.features.has(Feature::Albedo) {
-        return missing("the host gave no albedo");
-    }
-    if view == View::Rays && !plan.steps.iter().any(|s| s.pass.traces()) {
-        return missing("the host traced the rays");
-    }
-    if view == View::Emission && !plan.features.has(Feature::DirectEmission) {
-        return missing("nothing emits, or the host gave no emission");
-    }
-    if view == View::Object && !plan.features.has(Feature::Objects) {
-        return missing("objects are not told apart");
-    }
-    if view == View::Mean && !has(Image::Sum) {
-        return missing("frames are only summed in Mode::Reference");
-    }
-    let paired = matches!(view, View::PairNow | View::PairBefore);
-    if paired && plan.features.has(Feature::Unchanged) {
-        return missing("nothing changed, so that no path was repeated");
-    }
-    let traced = plan.features.has(Feature::Reshade) || plan.features.has(Feature::Pairs);
-    if paired && !traced {
-        return missing("the gradient does not come from paths");
-    }
-    let [now, before] = gradient_pairs::sources(plan.features);
-    let radiance = match view {
-        View::PairNow => now,
-        View::PairBefore => before,
-        _ => Slot::Now(Image::Radiance),
-    };
-    let known = [
-        Feature::TemporalOnly,
-        Feature::Steady,
-        Feature::Albedo,
-        Feature::DirectEmission,
-        Feature::Background,
-        Feature::Pairs,
-    ];
-    let mut features = plan.features.and(Features::of(&known));
-    if !matches!(view, View::Denoised | View::Noisy | View::Emission) {
-        features = features.without(Feature::DirectEmission);
-    }
-    if !matches!(view, View::Denoised | View::NonFinite) {
-        features = features.without(Feature::TemporalOnly).without(Feature::Steady);
-    }
-    if view != View::Denoised {
-        features = features.without(Feature::Background);
-    }
-    if !matches!(view, View::Denoised | View::Noisy | View::Albedo) && !paired {
-        features = features.without(Feature::Albedo);
-    }
-    if !paired {
-        features = features.without(Feature::Pairs);
-    }
-    if view == View::Gradient && plan.features.has(Feature::Unchanged) {
-        features = features.with(Feature::Unchanged);
-    }
-    match target {
-        TextureFormat::Rgba8Unorm => features = features.with(Feature::TargetPicture),
-        TextureFormat::Rgba16Float => features = features.with(Feature::TargetF16),
-        _ => {}
-    }
-    let all = bindings(
-        features,
-        [
-            ("color", color, &[]),
-            ("radiance", radiance, &[]),
-            ("samples", Slot::Now(Image::Samples), &[]),
-            ("object", Slot::Now(Image::Object), &[]),
-            ("albedo", Slot::Now(Image::Albedo), if view == View::Rays { &[] } else { &[Feature::Albedo] }),
-            ("emission", Slot::Now(Image::Emission), &[Feature::DirectEmission]),
-            ("guide", Slot::Now(Image::Guide), &[]),
-            ("visibility", Slot::Now(Image::Visibility), &[]),
-            ("motion", Slot::Now(Image::Motion), &[]),
-            ("gradient", gradient, &[]),
-            ("history", Slot::Now(Image::History), &[]),
-            ("sum", Slot::Now(Image::Sum), &[]),
-            ("weights", Slot::Now(Image::Weights), &[]),
-            ("target_out", Slot::Target, &[]),
-        ],
-    );
-    let names: &[&str] = match view {
-        View::Denoised if features.has(Feature::Background) => &["color", "radiance", "guide", "albedo", "emission"],
-        View::Denoised => &["color", "albedo", "emission"],
-        View::Noisy => &["radiance", "albedo", "emission"],
-        View::Albedo | View::Rays => &["albedo"],
-        View::Normal | View::Depth => &["guide"],
-        View::TriangleId => &["visibility"],
-        View::Motion => &["motion"],
-        View::MotionError => &["guide", "motion"],
-        View::Gradient if features.has(Feature::Unchanged) => &[],
-        View::Gradient => &["gradient"],
-        View::Lambda | View::Alpha | View::Outliers => &["weights"],
-        View::HistoryLength | View::Variance => &["history"],
-        View::NonFinite => &["color"],
-        View::Emission => &["emission"],
-        View::Object => &["object"],
-        View::PairNow | View::PairBefore => &["samples", "radiance", "albedo"],
-        View::Mean => &["sum"],
-    };
-    let used = all.into_iter().filter(|(name, _)| *name == "target_out" || names.contains(name));
-    let bindings: Vec<_> = used.collect();
-    if bindings.iter().any(|(_, slot)| matches!(slot, Slot::Now(image) if !holds(*image))) {
-        return missing("its image was not kept: set DenoiserDescriptor::views");
-    }
-    Ok(Step { pass: Pass::View, features, grid: Grid::Pixels, iteration: view as u32, bindings })
+    Ok(Step { pass: &PASS, features, iteration: 0, batch: 0, view: Some(view), bindings })
 }

@@ -1,27 +1,28 @@
-//! Primary rays, see shaders/visibility.wgsl.
+//! Primary rays: triangle, normal, depth and motion of each pixel, see shaders/visibility.wgsl.
 
-use super::{GEOMETRY, Pass, bindings};
-use crate::plan::{Feature, Features, Grid, Image, Slot, Step};
+use super::prelude::*;
 
-pub(crate) fn step(features: Features) -> Step {
-    // Textures matter here only where they cut holes.
-    let mut features = features.and(Features::of(GEOMETRY).with(Feature::Objects));
-    if !features.has(Feature::AlphaMask) {
-        features = features.without(Feature::Textures).without(Feature::FoldedImages);
-    }
-    Step {
-        pass: Pass::Visibility,
-        features,
-        grid: Grid::Pixels,
-        iteration: 0,
-        bindings: bindings(
-            features,
-            [
-                ("visibility_out", Slot::Now(Image::Visibility), &[]),
-                ("guide_out", Slot::Now(Image::Guide), &[]),
-                ("motion_out", Slot::Now(Image::Motion), &[]),
-                ("object_out", Slot::Now(Image::Object), &[Feature::Objects]),
-            ],
-        ),
-    }
-}
+/// Images matter here only where they cut holes.
+pub(crate) static PASS: Pass = Pass {
+    name: "visibility",
+    source: include_str!("../../shaders/visibility.wgsl"),
+    grid: Pixels,
+    features: &[&[
+        knows(Instanced),
+        knows(Textures).with(AlphaMask),
+        knows(FoldedImages).with(AlphaMask),
+        knows(ShadingNormals),
+        knows(VertexColors),
+        knows(AlphaMask),
+        knows(AlphaBlend),
+        knows(FewTriangles),
+        knows(Objects),
+    ]],
+    bindings: &[&[
+        out("visibility_out", Image::Visibility),
+        out("guide_out", Image::Guide),
+        out("motion_out", Image::Motion),
+        out("object_out", Image::Object).with(Objects),
+    ]],
+    traces: true,
+};

@@ -1,4 +1,4 @@
-//! How many dispatches trace a frame's paths.
+//! The number of dispatches that trace a frame's paths.
 //!
 //! A dispatch that takes seconds is ended as hung by most systems, and what it had traced is lost; lavapipe of Mesa 22.3 ends all loops
 //! of an invocation after 65 535 rounds in total, and the picture goes dark without a word. So a dispatch traces no more paths than
@@ -7,8 +7,8 @@
 use super::Traits;
 use crate::settings::TracerSettings;
 
-/// Rounds of all loops that a pixel's paths may be expected to take in one dispatch: an eighth of what lavapipe allows, as some pixels'
-/// paths take several times as long as others'.
+/// Rounds of all loops that a pixel's paths may be expected to take in one dispatch: an eighth of the number that lavapipe allows,
+/// because the paths of some pixels take several times as long as those of others.
 const MOST_ROUNDS: u32 = 8192;
 
 /// Rounds that a ray takes for each level of the trees. By this, a dispatch traces 17 paths over `pillars`, where light was lost from
@@ -27,7 +27,7 @@ pub(crate) struct Batches {
 }
 
 impl Batches {
-    /// As few as are safe.
+    /// The smallest safe number of dispatches.
     pub fn of(traits: &Traits, tracer: &TracerSettings) -> Self {
         let rounds_per_ray = if traits.few_triangles { 1 } else { 1 + ROUNDS_PER_LEVEL * traits.levels };
         // One towards a light and one onwards from each surface.
@@ -41,12 +41,12 @@ impl Batches {
         Self { samples: tracer.samples, each: tracer.samples.div_ceil(dispatches).max(1) }
     }
 
-    /// How many dispatches there are.
+    /// The number of dispatches.
     pub fn count(self) -> u32 {
         self.samples.div_ceil(self.each).max(1)
     }
 
-    /// Of each dispatch, how many paths it traces and the number of the first.
+    /// For each dispatch, the number of paths that it traces, and the index of its first path.
     pub fn all(self) -> Vec<[u32; 2]> {
         let firsts = (0..self.count()).map(|dispatch| dispatch * self.each);
         firsts.map(|first| [self.each.min(self.samples - first), first]).collect()

@@ -1,6 +1,6 @@
-//! What may differ from the last frame.
+//! Changes since the last frame.
 
-/// What may have changed since the last frame. What has not is work that a frame can leave out.
+/// The parts of a frame that may have changed since the last one. A frame leaves out the work that only changes would need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Changes {
     /// The camera: place, direction, projection or jitter.
@@ -11,10 +11,15 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Everything may have changed: always true, and always right.
+    /// Everything may have changed: always a correct answer.
     pub const ANY: Self = Self { camera: true, scene: true };
-    /// Nothing has.
+    /// Nothing has changed.
     pub const NONE: Self = Self { camera: false, scene: false };
+
+    /// The changes of both.
+    pub(crate) fn or(self, other: Self) -> Self {
+        Self { camera: self.camera || other.camera, scene: self.scene || other.scene }
+    }
 }
 
 impl Default for Changes {

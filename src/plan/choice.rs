@@ -1,4 +1,4 @@
-//! Which features a frame asks for, each with its reason.
+//! The features of a frame, each with the reason why it is in or out.
 
 #[cfg(feature = "path-tracer")]
 use super::{Batches, Traits};
@@ -6,7 +6,7 @@ use super::{Changes, Decision, Feature, HostTraits};
 use crate::settings::{self, Blend, FilterSettings, Kernel, Mode, Settings, Stops, Variance};
 use Feature::*;
 
-/// A feature, whether it is in, and why it would be in or out.
+/// A feature, true if it is in, and the reasons for being in and for being out.
 type Row = (Feature, bool, [&'static str; 2]);
 
 #[cfg(feature = "path-tracer")]
@@ -15,7 +15,7 @@ const OBJECTS: [&str; 2] = ["objects are told apart in time", "all is taken for 
 const UNFILTERED: [&str; 2] = ["the mode shows the samples", "the mode filters"];
 const ACCUMULATE: [&str; 2] = ["the mode is the mean over frames", "the mode shows single frames"];
 
-/// Of a path-traced frame.
+/// The decisions on a path-traced frame.
 #[cfg(feature = "path-tracer")]
 pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> Vec<Decision> {
     use crate::settings::Sampling;
@@ -61,7 +61,7 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
     with_filter(&rows, settings.filter.gradient.traced(), [false, traits.views], settings, changes)
 }
 
-/// Of a frame of the host's renderer.
+/// The decisions on a frame of the host's renderer.
 pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes) -> Vec<Decision> {
     let denoise = settings.mode == Mode::Denoise;
     let source = settings.filter.gradient.hosted(traits.lambda, traits.pairs);
@@ -99,7 +99,7 @@ pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes)
     with_filter(&rows, source, [pairs && traits.pairs_in_place, traits.views], settings, changes)
 }
 
-/// Why a host's motion is copied, if it is, and why its light.
+/// The reasons for a copy of a host's motion and of its light, if there is one.
 fn why_copies(traits: &HostTraits, reshade: bool) -> [Option<&'static str>; 2] {
     let reasons = [
         (reshade, "a copy is kept: repeated paths need it, or the last frame's"),
@@ -110,7 +110,7 @@ fn why_copies(traits: &HostTraits, reshade: bool) -> [Option<&'static str>; 2] {
     [why, why.or(traits.in_target.then_some("a copy is kept: a shader cannot read what it writes"))]
 }
 
-/// The rows, and what the filter asks for where there is one: of pairs in place, and of frames with views.
+/// The rows, and those of the filter if the mode filters. `given` says whether pairs stand in place, and whether views are kept.
 fn with_filter(
     rows: &[Row],
     source: settings::Gradient,

@@ -1,21 +1,21 @@
-//! Why something is in a plan, or left out.
+//! The reason why a feature is in a plan or left out.
 
 use super::Feature;
 use std::fmt;
 
-/// Something that was decided, and why.
+/// A decision and its reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Decision {
-    /// What about.
+    /// The feature that it is about.
     pub feature: Feature,
-    /// Whether it is in.
+    /// True if the feature is in.
     pub included: bool,
-    /// Why it is, or is not: half a sentence.
+    /// The reason, as half a sentence.
     pub reason: &'static str,
 }
 
 impl Decision {
-    /// With why it would be in, and why not.
+    /// A decision with the first reason if the feature is in, with the second if it is out.
     pub(super) fn new(feature: Feature, included: bool, [why, why_not]: [&'static str; 2]) -> Self {
         Self { feature, included, reason: if included { why } else { why_not } }
     }

@@ -1,6 +1,6 @@
 //! A plan for people: a table, and a graph.
 
-use super::{Grid, Image, Plan, Slot};
+use super::{Grid, Plan, Slot};
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
@@ -14,10 +14,10 @@ impl fmt::Display for Plan {
         writeln!(f, "\nPasses: what each reads → writes, and what is compiled into it")?;
         for (number, step) in self.steps.iter().enumerate() {
             let list = |out| {
-                let images = step.bindings.iter().filter(|(name, _)| writes(name) == out);
-                images.map(|(name, slot)| slot_name(name, *slot)).collect::<Vec<_>>().join(", ")
+                let images = step.bindings.iter().filter(|bound| bound.written == out);
+                images.map(|bound| slot_name(bound.slot)).collect::<Vec<_>>().join(", ")
             };
-            let per = if step.grid == Grid::Strata { "3×3 pixels" } else { "pixel" };
+            let per = if step.grid() == Grid::Strata { "3×3 pixels" } else { "pixel" };
             writeln!(f, "{:>3} {:<22}per {per:<12}{} → {}", number + 1, step.pass.name(), list(false), list(true))?;
             if step.features.iter().next().is_some() {
                 let features: Vec<_> = step.features.iter().map(|feature| format!("{feature:?}")).collect();
@@ -46,10 +46,10 @@ impl Plan {
                 Some((_, count)) => *count += 1,
                 None => passes.push((pass, 1)),
             }
-            for &(name, slot) in &step.bindings {
-                let label = slot_name(name, slot);
+            for bound in &step.bindings {
+                let label = slot_name(bound.slot);
                 let id = format!("i_{}", label.replace(' ', "_"));
-                let edge = if writes(name) { format!("{pass} --> {id}") } else { format!("{id} --> {pass}") };
+                let edge = if bound.written { format!("{pass} --> {id}") } else { format!("{id} --> {pass}") };
                 images.insert(id, label);
                 if !edges.contains(&edge) {
                     edges.push(edge);
@@ -73,17 +73,12 @@ impl Plan {
     }
 }
 
-/// Whether a binding of this name is written.
-fn writes(binding: &str) -> bool {
-    binding.ends_with("_out")
-}
-
-/// What stands behind a binding: `last` is the previous frame's; a host's view has the binding's name.
-fn slot_name(binding: &str, slot: Slot) -> String {
+/// The name of an image: `last` is the previous frame's.
+fn slot_name(slot: Slot) -> String {
     match slot {
         Slot::Now(image) => image.name().into(),
-        Slot::Before(image) => format!("last {}", Image::name(image)),
+        Slot::Before(image) => format!("last {}", image.name()),
         Slot::Target => "target".into(),
-        Slot::Host => format!("host's {}", binding.replace('_', " ")),
+        Slot::Host(view) => format!("host's {}", view.name()),
     }
 }

@@ -1,14 +1,14 @@
-//! Which texture holds which image: images whose lifetimes do not overlap share one.
+//! The textures that hold a plan's images. Images whose lifetimes do not overlap share one.
 //!
-//! WebGPU has no aliasing of memory, but a texture may hold one image after another, if both have its format and extent. Over the
-//! steps of a frame that is register allocation: an image gets a free texture at the step that writes it, and gives it back after
-//! the last step that reads it. What the next frame needs is kept until that frame has read it.
+//! WebGPU has no aliasing of memory, but a texture may hold one image after another if both have its format and extent. Over the
+//! steps of a frame this is register allocation: an image gets a free texture at the step that writes it, and returns it after
+//! the last step that reads it. An image that the next frame needs keeps its texture until that frame has read it.
 
-use super::{Grid, Image, Plan, Slot, Step};
+use super::{Bound, Grid, Image, Plan, Slot, Step};
 use std::collections::{BTreeMap, BTreeSet};
 use wgpu::TextureFormat;
 
-/// What a texture can hold.
+/// Format and extent of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Kind {
     pub format: TextureFormat,
@@ -27,29 +27,29 @@ impl Kind {
     }
 }
 
-/// The textures of a denoiser, by number, and what is in them.
+/// The textures of a denoiser, by number, and their contents.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory {
-    /// What each can hold; `None` where one was given up.
+    /// The kind of each texture; `None` where one was given up.
     textures: Vec<Option<Kind>>,
     /// Textures that nothing may be written into yet.
     busy: BTreeSet<usize>,
-    /// Where the last frame's images are.
+    /// The textures of the last frame's images.
     before: BTreeMap<Image, usize>,
-    /// What stands in for those where there was no last frame. Nothing is made of its content.
+    /// Textures that are bound in place of the last frame's images when there is no last frame. No result depends on their contents.
     absent: BTreeMap<Image, usize>,
-    /// Where this frame's images are, or were.
+    /// The textures in which this frame's images are, or were.
     now: BTreeMap<Image, usize>,
-    /// Those of this frame's images that others were written over.
+    /// The images of this frame whose texture another image has taken since.
     overwritten: BTreeSet<Image>,
-    /// What of this frame the next one needs.
+    /// The images of this frame that the next one needs.
     needed: BTreeSet<Image>,
-    /// Whether this frame is complete, so that the next one can go on from it.
+    /// True if this frame is complete, so that the next one can continue it.
     complete: bool,
 }
 
 impl Memory {
-    /// What a frame that begins now finds of the last one. An image that this one did not write is left from the one before.
+    /// The images of the last frame that a new frame finds. An image that the last frame did not write is left from the one before.
     fn left(&self) -> BTreeMap<Image, usize> {
         let mut left = self.before.clone();
         if self.complete {
@@ -60,13 +60,13 @@ impl Memory {
         left
     }
 
-    /// Whether a frame that begins now finds all of the last one that these steps ask for.
+    /// True if a new frame finds all images of the last one that these steps read.
     pub fn has_all_before(&self, steps: &[Step]) -> bool {
         let left = self.left();
         slots(steps).all(|slot| !matches!(slot, Slot::Before(image) if !left.contains_key(&image)))
     }
 
-    /// Begins a frame. What the last one left stays until this one is complete.
+    /// Begins a frame. The images of the last one stay until this one is complete.
     pub fn begin(&mut self) {
         self.before = self.left();
         self.busy = self.before.values().copied().collect();
@@ -76,11 +76,11 @@ impl Memory {
         self.complete = false;
     }
 
-    /// Finds textures for the images of `steps` from number `from` on; the others have theirs. What `over` says to have been used for
-    /// the last time after one of them, by its number, is free for later ones then.
+    /// Assigns textures to the images of `steps[from..]`; the steps before have theirs. `over(step, slot)` says whether a slot is used for the
+    /// last time in a step, so that its texture is free for later steps.
     pub fn place(&mut self, steps: &[Step], from: usize, over: impl Fn(usize, Slot) -> bool) {
         for (i, step) in steps.iter().enumerate() {
-            for &(_, slot) in step.bindings.iter().filter(|_| i >= from) {
+            for &Bound { slot, .. } in step.bindings.iter().filter(|_| i >= from) {
                 match slot {
                     Slot::Now(image) if !self.now.contains_key(&image) => {
                         let texture = self.take(Kind::of(image));
@@ -93,7 +93,7 @@ impl Memory {
                     _ => {}
                 }
             }
-            for &(_, slot) in &step.bindings {
+            for &Bound { slot, .. } in &step.bindings {
                 if let Some(texture) = self.texture(slot).filter(|_| over(i, slot)) {
                     self.busy.remove(&texture);
                 }
@@ -113,7 +113,7 @@ impl Memory {
         self.complete = false;
     }
 
-    /// Gives up the textures that hold nothing of this frame, nor of the last.
+    /// Gives up the textures that hold no image of this frame or of the last one.
     pub fn shrink(&mut self) {
         let maps = [&self.now, &self.before, &self.absent];
         let used: BTreeSet<usize> = maps.iter().flat_map(|map| map.values()).copied().collect();
@@ -129,26 +129,26 @@ impl Memory {
         match slot {
             Slot::Now(image) => self.now.get(&image).copied(),
             Slot::Before(image) => self.before.get(&image).or_else(|| self.absent.get(&image)).copied(),
-            Slot::Target | Slot::Host => None,
+            Slot::Target | Slot::Host(_) => None,
         }
     }
 
-    /// Whether this frame is over, and was not abandoned.
+    /// True if this frame is over and was not abandoned.
     pub fn is_complete(&self) -> bool {
         self.complete
     }
 
-    /// Whether this frame's image is still there when the frame is over.
+    /// True if this frame's image is still there when the frame is over.
     pub fn holds(&self, image: Image) -> bool {
         self.now.contains_key(&image) && !self.overwritten.contains(&image)
     }
 
-    /// What each texture can hold.
+    /// The kind of each texture.
     pub fn textures(&self) -> &[Option<Kind>] {
         &self.textures
     }
 
-    /// A texture that may be written over, busy from now on.
+    /// A texture that may be overwritten, busy from now on.
     fn take(&mut self, kind: Kind) -> usize {
         let free = (0..self.textures.len()).find(|i| self.textures[*i] == Some(kind) && !self.busy.contains(i));
         let texture = free.unwrap_or_else(|| match self.textures.iter().position(Option::is_none) {
@@ -166,10 +166,10 @@ impl Memory {
 }
 
 fn slots(steps: &[Step]) -> impl Iterator<Item = Slot> {
-    steps.iter().flat_map(|step| &step.bindings).map(|(_, slot)| *slot)
+    steps.iter().flat_map(|step| &step.bindings).map(|bound| bound.slot)
 }
 
-/// Those of a plan's images of which the next frame needs this one's.
+/// The images of a plan that the next frame reads.
 pub(crate) fn needed(images: &[(Image, bool)]) -> BTreeSet<Image> {
     images.iter().filter(|(_, before)| *before).map(|(image, _)| *image).collect()
 }
@@ -181,7 +181,7 @@ impl Plan {
         self.textures(views).iter().map(|kind| kind.bytes(size)).sum()
     }
 
-    /// What those textures can hold.
+    /// The kinds of those textures.
     fn textures(&self, views: bool) -> Vec<Kind> {
         let (mut memory, needed) = (Memory::default(), needed(&self.images()));
         // The first frame has no last one; from the second on all are alike.
@@ -195,7 +195,7 @@ impl Plan {
         memory.textures().iter().copied().flatten().collect()
     }
 
-    /// Whether a slot is used for the last time in the step of this number. With `views`, this frame's images are all kept until
+    /// True if a slot is used for the last time in the step of this number. With `views`, all images of this frame are kept until
     /// the next.
     pub(crate) fn is_over(&self, step: usize, slot: Slot, needed: &BTreeSet<Image>, views: bool) -> bool {
         let used = slots(&self.steps[step + 1..]).any(|other| other == slot);
@@ -204,7 +204,7 @@ impl Plan {
             && match slot {
                 Slot::Now(image) => !views && !needed.contains(&image),
                 Slot::Before(image) => !views && (written(image) || !needed.contains(&image)),
-                Slot::Target | Slot::Host => false,
+                Slot::Target | Slot::Host(_) => false,
             }
     }
 }
@@ -257,10 +257,9 @@ mod tests {
             memory.place(&plan.steps, begun, |step, slot| plan.is_over(step, slot, &needed(&most.images()), views));
             memory.end(needed(&most.images()));
             for step in &plan.steps {
-                let (outputs, inputs): (Vec<_>, Vec<_>) =
-                    step.bindings.iter().partition(|(name, _)| name.ends_with("_out"));
+                let (outputs, inputs): (Vec<_>, Vec<_>) = step.bindings.iter().partition(|bound| bound.written);
                 let place = |slot| memory.texture(slot).unwrap_or_else(|| panic!("{slot:?} has no texture"));
-                for &(name, slot) in inputs {
+                for &&Bound { name, slot, .. } in &inputs {
                     match slot {
                         Slot::Now(image) => {
                             assert_eq!(contents[&place(slot)], (image, number), "{:?} {name}", step.pass)
@@ -271,11 +270,10 @@ mod tests {
                         _ => {}
                     }
                 }
-                for &(name, slot) in outputs {
+                for &&Bound { name, slot, .. } in &outputs {
                     if let Slot::Now(image) = slot {
                         let texture = place(slot);
-                        let read =
-                            |(_, other): &&(&str, Slot)| memory.texture(*other) == Some(texture) && *other != slot;
+                        let read = |other: &&Bound| memory.texture(other.slot) == Some(texture) && other.slot != slot;
                         assert!(
                             step.bindings.iter().find(read).is_none(),
                             "{:?} {name} is written where it is read",

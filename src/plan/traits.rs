@@ -1,6 +1,6 @@
-//! What a frame has to offer, as far as shaders depend on it.
+//! The contents of scenes and of hosts' views, as far as shaders depend on them.
 
-/// What a scene has. Everything that is absent is left out of the shaders.
+/// The contents of a scene. Everything that is absent is left out of the shaders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Traits {
     /// Meshes move or repeat: two levels of trees.
@@ -25,20 +25,20 @@ pub struct Traits {
     pub punctual_lights: bool,
     /// There is an environment that is not black.
     pub environment: bool,
-    /// Texels of it that a light sample chooses among at the end, one by one.
+    /// Texels of the environment among which a light sample chooses at the end, one by one.
     pub environment_run: u32,
     /// Some material is shown unlit.
     pub unlit: bool,
-    /// So few triangles, on an adapter that is the CPU, that testing each is faster than a tree.
+    /// The triangles are so few, and the adapter is the CPU, that a test of each is faster than a tree.
     pub few_triangles: bool,
-    /// Levels of its trees: the more there are, the fewer paths a dispatch traces.
+    /// Levels of the trees: the more there are, the fewer paths a dispatch traces.
     pub levels: u32,
-    /// What a frame leaves is to be shown, see [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+    /// The images of a frame are kept for views, see [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
     pub views: bool,
 }
 
 impl Traits {
-    /// All that the materials and lights of a scene with this layout in memory can have.
+    /// Everything that the materials and lights of a scene with this layout in memory can have.
     #[must_use]
     pub fn everything(self) -> Self {
         Self {
@@ -56,7 +56,7 @@ impl Traits {
     }
 }
 
-/// What a host's views have. Everything that is absent is left out of the shaders.
+/// The contents of a host's views. Everything that is absent is left out of the shaders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct HostTraits {
     /// Normals are points of the unfolded octahedron.
@@ -69,7 +69,7 @@ pub struct HostTraits {
     pub previous_depth: bool,
     /// Objects are numbered.
     pub instances: bool,
-    /// … by floats.
+    /// The objects' numbers are floats.
     pub float_instances: bool,
     /// There is an albedo.
     pub albedo: bool,
@@ -85,36 +85,14 @@ pub struct HostTraits {
     pub luminance_pairs: bool,
     /// There is one pair per stratum instead of an image with mostly none.
     pub stratum_pairs: bool,
-    /// The pairs' paths stand in the radiance in the place of their pixels' own.
+    /// The pairs' paths stand in the radiance in place of their pixels' own paths.
     pub pairs_in_place: bool,
     /// The λ image is a confidence, 1 − λ.
     pub confidence: bool,
     /// Input that has to be cleaned is counted.
     pub diagnostics: bool,
-    /// What a frame leaves is to be shown, see [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+    /// The images of a frame are kept for views, see [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
     pub views: bool,
-    /// Some of the light comes in the target's own texture.
+    /// A view of the light is of the target's own texture.
     pub in_target: bool,
-}
-
-/// How rays find triangles: numbers that the shaders which follow rays are compiled with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum Traversal {
-    /// Down the trees.
-    Tree {
-        /// Slots of the traversal's stack.
-        stack: u32,
-    },
-    /// By testing each, see [`Feature::FewTriangles`](super::Feature::FewTriangles).
-    Every {
-        /// How many there are, a multiple of 8.
-        triangles: u32,
-    },
-}
-
-impl Default for Traversal {
-    fn default() -> Self {
-        Self::Tree { stack: 4 }
-    }
 }

@@ -10,7 +10,7 @@ mod load;
 
 pub use description::*;
 pub use gpu::GpuScene;
-pub(crate) use gpu::Snapshot;
+pub(crate) use gpu::{Snapshot, Visible};
 #[cfg(test)]
 pub(crate) use gpu::{pack, unpack};
 #[cfg(any(feature = "gltf", feature = "obj"))]

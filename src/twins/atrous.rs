@@ -5,8 +5,8 @@ use super::codec::{assert_close, depth, luminance, pack_tap, radiance, unpack_no
 use super::plane::{V, add, dot, scale, sub};
 use super::random::Random;
 use super::strata::falloff;
-use crate::passes::atrous;
-use crate::plan::{Feature, Features, Step};
+use crate::passes::{Nth, Step, atrous};
+use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings, Stops};
 
 /// What the documented formulas make of a pixel: colour, standard deviation, and the plain mean; its own, if it has converged.
@@ -125,7 +125,9 @@ fn fit(taps: &[Tap], weight: f64, mean: V, ridge: f64, noise: Option<f64>) -> V 
 }
 
 fn check(settings: &Settings, features: &[Feature], iteration: u32) {
-    check_step(settings, &atrous::step(Features::of(features), iteration));
+    let features = Features::of(features);
+    let features = if iteration == 0 { features.with(Feature::FirstIteration) } else { features };
+    check_step(settings, &Step::nth(&atrous::PASS, features, Nth::iteration(iteration)));
 }
 
 fn check_step(settings: &Settings, step: &Step) {
@@ -196,7 +198,10 @@ fn the_default_stops() {
 fn the_last_iteration_takes_the_nearest_taps() {
     use Feature::*;
     for features in [Features::of(&[LocalLinearFit, RidgeByNoise]), Features::of(&[FullKernel])] {
-        check_step(&Settings::adaptive(), &atrous::last_step(features, 4));
+        check_step(
+            &Settings::adaptive(),
+            &Step::nth(&atrous::PASS, features.with(Feature::SmallKernel), Nth::after(4)),
+        );
     }
 }
 

@@ -4,7 +4,8 @@ use super::gpu::gpu;
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::kernel::Kernel;
-use crate::plan::{Feature, Grid, Slot, Step};
+use crate::gpu::resource::Resource;
+use crate::passes::{Bound, Feature, Grid, HostView, Slot, Step, Traversal};
 use crate::{Camera, Settings, Viewpoint};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
@@ -50,32 +51,31 @@ impl Bench {
     fn run_once(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
         let gpu = gpu();
         let textures: BTreeMap<&str, Texture> =
-            step.bindings.iter().map(|&(name, slot)| (name, self.texture(step, name, slot))).collect();
+            step.bindings.iter().map(|bound| (bound.name, self.texture(step, bound))).collect();
         for (name, texels) in inputs {
             let texture = textures.get(name).unwrap_or_else(|| panic!("{:?} has no `{name}`", step.pass));
             write(texture, texels);
         }
         let [frame, stride] =
             [bytemuck::bytes_of(&self.uniform()), &(1_i32 << step.iteration).to_le_bytes()].map(uniform);
-        let permutation =
-            Permutation { pass: step.pass, features: step.features, traversal: Default::default(), view: 0 };
-        let kernel = kernel(permutation);
+        let kernel = kernel(step);
         let views: BTreeMap<&str, _> = textures.iter().map(|(n, t)| (*n, t.create_view(&Default::default()))).collect();
-        let resource = |name: &str| match name {
-            "frame" => Some(frame.as_entire_binding()),
-            "stride" => Some(stride.as_entire_binding()),
-            _ => views.get(name).map(BindingResource::TextureView),
+        let resource = |resource| match resource {
+            Resource::Frame => Some(frame.as_entire_binding()),
+            Resource::Stride => Some(stride.as_entire_binding()),
+            Resource::Image(number) => views.get(step.bindings[number].name).map(BindingResource::TextureView),
+            _ => None,
         };
-        let groups = kernel.bind(&gpu.device, resource).unwrap_or_else(|name| panic!("nothing for `{name}`"));
-        let [width, height] = step.grid.extent(self.size);
+        let groups = kernel.bind(&gpu.device, resource).unwrap_or_else(|missing| panic!("nothing for {missing:?}"));
+        let [width, height] = step.grid().extent(self.size);
         gpu.submit(|encoder| {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(&kernel.pipeline);
             pass.set_bind_group(0, &groups[0], &[]);
             pass.dispatch_workgroups(width.div_ceil(8), height.div_ceil(8), 1);
         });
-        let outputs = textures.iter().filter(|(name, _)| name.ends_with("_out"));
-        outputs.map(|(name, texture)| (*name, read(texture))).collect()
+        let outputs = step.bindings.iter().filter(|bound| bound.written);
+        outputs.map(|bound| (bound.name, read(&textures[bound.name]))).collect()
     }
 
     fn uniform(&self) -> FrameUniform {
@@ -92,22 +92,22 @@ impl Bench {
         FrameUniform::new(self.size, &moment, &self.settings)
     }
 
-    fn texture(&self, step: &Step, name: &str, slot: Slot) -> Texture {
+    fn texture(&self, step: &Step, bound: &Bound) -> Texture {
         let has = |feature| step.features.has(feature);
-        let (format, [width, height]) = match slot {
+        let (format, [width, height]) = match bound.slot {
             Slot::Now(image) | Slot::Before(image) => (image.format(), image.grid().extent(self.size)),
             Slot::Target if has(Feature::TargetF16) => (TextureFormat::Rgba16Float, self.size),
             Slot::Target => (TextureFormat::Rgba32Float, self.size),
             // The widest that a host may hand in.
-            Slot::Host => match name {
-                "depth" | "previous_depth" => (TextureFormat::R32Float, self.size),
-                "external_lambda" => (TextureFormat::R32Float, self.size.map(|s| s.div_ceil(self.lambda_block))),
-                "instance" if !has(Feature::FloatObjects) => (TextureFormat::R32Uint, self.size),
-                "instance" => (TextureFormat::R32Float, self.size),
-                "normal" if has(Feature::PackedNormals) => (TextureFormat::R32Uint, self.size),
-                "normal" if has(Feature::OctahedralNormals) => (TextureFormat::Rg32Float, self.size),
-                "motion" => (TextureFormat::Rg32Float, self.size),
-                "current" | "previous" => {
+            Slot::Host(view) => match view {
+                HostView::Depth | HostView::PreviousDepth => (TextureFormat::R32Float, self.size),
+                HostView::Lambda => (TextureFormat::R32Float, self.size.map(|s| s.div_ceil(self.lambda_block))),
+                HostView::Instance if !has(Feature::FloatObjects) => (TextureFormat::R32Uint, self.size),
+                HostView::Instance => (TextureFormat::R32Float, self.size),
+                HostView::Normal if has(Feature::PackedNormals) => (TextureFormat::R32Uint, self.size),
+                HostView::Normal if has(Feature::OctahedralNormals) => (TextureFormat::Rg32Float, self.size),
+                HostView::Motion => (TextureFormat::Rg32Float, self.size),
+                HostView::PairNow | HostView::PairBefore => {
                     let luminance = has(Feature::LuminancePairs);
                     let grid = if has(Feature::StratumPairs) { Grid::Strata } else { Grid::Pixels };
                     (
@@ -127,12 +127,13 @@ impl Bench {
 }
 
 /// Kernels are compiled once for all tests.
-fn kernel(permutation: Permutation) -> &'static Kernel {
+fn kernel(step: &Step) -> &'static Kernel {
     static KERNELS: OnceLock<Mutex<BTreeMap<Permutation, &'static Kernel>>> = OnceLock::new();
     let mut kernels = KERNELS.get_or_init(Mutex::default).lock().unwrap_or_else(|e| e.into_inner());
+    let permutation = Permutation::of(step, Traversal::default());
     kernels.entry(permutation).or_insert_with(|| {
         let module = Shaders::new().and_then(|mut shaders| shaders.compose(permutation));
-        let kernel = module.and_then(|module| Kernel::new(&gpu().device, module, permutation));
+        let kernel = module.and_then(|module| Kernel::new(&gpu().device, module, step));
         Box::leak(Box::new(kernel.unwrap_or_else(|e| panic!("{e}"))))
     })
 }

@@ -12,7 +12,7 @@ fn text(shaders: &mut Shaders, permutation: Permutation) -> (String, String) {
     let module = shaders.compose(permutation).unwrap_or_else(|e| panic!("{e}"));
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module).unwrap();
     let Permutation { features, traversal, view, .. } = permutation;
-    let what = format!("{features:?}, {traversal:?}, view {view}");
+    let what = format!("{features:?}, {traversal:?}, view {view:?}");
     (what, write_string(&module, &info, WriterFlags::empty()).unwrap())
 }
 

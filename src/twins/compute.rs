@@ -3,8 +3,7 @@
 use super::gpu::gpu;
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::used_bindings;
-use crate::passes::Pass;
-use crate::plan::Features;
+use crate::passes::{Features, Pass, SceneBinding};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{
     BindGroupDescriptor, BindGroupEntry, BindingResource, BufferUsages, ComputePipelineDescriptor,
@@ -14,7 +13,7 @@ use wgpu::{
 /// Binds the numbers at 0 and as many results as asked for at 1, and starts an invocation for each of the numbers.
 pub(super) fn compute(
     source: &str,
-    pass: Pass,
+    pass: &'static Pass,
     features: Features,
     numbers: &[[f32; 4]],
     results: usize,
@@ -25,15 +24,15 @@ pub(super) fn compute(
 /// The same with the bindings of group 1 by name, if the shader has any.
 pub(super) fn compute_with<'a>(
     source: &str,
-    pass: Pass,
+    pass: &'static Pass,
     features: Features,
     numbers: &[[f32; 4]],
     results: usize,
-    resource: &dyn Fn(&str) -> Option<BindingResource<'a>>,
+    resource: &dyn Fn(SceneBinding) -> Option<BindingResource<'a>>,
 ) -> Vec<[f32; 4]> {
     let gpu = gpu();
     let device = &gpu.device;
-    let permutation = Permutation { pass, features, traversal: Default::default(), view: 0 };
+    let permutation = Permutation { pass, features, traversal: Default::default(), view: None };
     let module =
         Shaders::new().and_then(|mut s| s.compose_source(source, permutation)).unwrap_or_else(|e| panic!("{e}"));
     let used = used_bindings(&module).unwrap();
@@ -73,7 +72,7 @@ pub(super) fn compute_with<'a>(
         .filter(|u| u.group == 1)
         .map(|u| BindGroupEntry {
             binding: u.binding,
-            resource: resource(&u.name).unwrap_or_else(|| panic!("no `{}`", u.name)),
+            resource: SceneBinding::named(&u.name).and_then(resource).unwrap_or_else(|| panic!("no `{}`", u.name)),
         })
         .collect();
     let layout = (!entries.is_empty()).then(|| pipeline.get_bind_group_layout(1));

@@ -7,7 +7,7 @@ use super::codec::{
 use super::outliers;
 use super::plane::V;
 use super::random::Random;
-use crate::passes::{gradient, gradient_filter, gradient_pairs, gradient_pairs_filter};
+use crate::passes::{Nth, Step, gradient, gradient_filter, gradient_pairs, gradient_pairs_filter};
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings};
 
@@ -112,7 +112,7 @@ fn pairs_are_what_one_path_brought_now_and_before() {
             };
             inputs.extend([("limit", limit.clone()), ("history_previous", history.iter().map(texel).collect())]);
         }
-        let written = images.bench.run(&gradient_pairs::step(features), &inputs);
+        let written = images.bench.run(&Step::new(&gradient_pairs::PASS, features), &inputs);
         for (x, y) in images.bench.strata() {
             let i = images.bench.stratum(x, y).unwrap();
             let (mut now, mut before) = images.pair(x, y).unwrap_or_default();
@@ -157,10 +157,14 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
             let gradient = numbers(count, &mut random);
             let [now, before] = texels(&pairs);
             let inputs = [("samples", images.records.clone()), ("now", now.clone()), ("before", before.clone())];
-            let mut written = images.bench.run(&gradient_pairs_filter::step(Features::default(), iteration), &inputs);
+            let mut written = images
+                .bench
+                .run(&Step::nth(&gradient_pairs_filter::PASS, Features::default(), Nth::iteration(iteration)), &inputs);
             let inputs = [("samples", images.records.clone()), ("gradient", gradient.clone())];
             let across = Features::of(&[Feature::AcrossSurfaces]);
-            written.append(&mut images.bench.run(&gradient_filter::step(across, iteration), &inputs));
+            written.append(
+                &mut images.bench.run(&Step::nth(&gradient_filter::PASS, across, Nth::iteration(iteration)), &inputs),
+            );
             // All thirteen numbers of a stratum: both colours with their squares, the product, the gradient.
             let all = |now: &[Texel], before: &[Texel], gradient: &[Texel], i: usize| -> Vec<f64> {
                 let (n, b, product) = unpack_pairs([now[i], before[i]]);
@@ -256,7 +260,7 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
             if signed {
                 features = features.with(Feature::SignedGradient);
             }
-            let written = images.bench.run(&gradient::step(features, 0), &inputs);
+            let written = images.bench.run(&Step::new(&gradient::PASS, features), &inputs);
             for (x, y) in images.bench.strata() {
                 let i = images.bench.stratum(x, y).unwrap();
                 let what = || format!("{size:?} ({x}, {y}), γ {gamma}, ratio {with_ratio}");
@@ -328,9 +332,11 @@ fn a_hosts_pairs_go_the_same_way() {
                 ("radiance", now.clone()),
                 ("radiance_previous", before.clone()),
             ];
-            let mut written = images.bench.run(&gradient_pairs::step(features), &inputs);
+            let mut written = images.bench.run(&Step::new(&gradient_pairs::PASS, features), &inputs);
             inputs.extend(["now_filtered", "before_filtered"].into_iter().zip(filtered.clone()));
-            written.append(&mut images.bench.run(&gradient::step(features.with(Feature::HistoryRatio), 0), &inputs));
+            written.append(
+                &mut images.bench.run(&Step::new(&gradient::PASS, features.with(Feature::HistoryRatio)), &inputs),
+            );
             written
         };
         assert_eq!(run(true), run(false), "{size:?}");
@@ -357,7 +363,7 @@ fn where_nothing_changed_the_ratio_is_exactly_one_and_the_gradient_exactly_zero(
         ("now_filtered", now),
         ("before_filtered", before),
     ];
-    let written = images.bench.run(&gradient::step(Features::of(&[Feature::HistoryRatio]), 0), &inputs);
+    let written = images.bench.run(&Step::new(&gradient::PASS, Features::of(&[Feature::HistoryRatio])), &inputs);
     assert!(written["ratio_out"].iter().flatten().all(|&w| w == 1.0_f32.to_bits()));
     assert!(written["gradient_out"].iter().all(|t| t[0] == 0));
     assert!(written["gradient_out"].iter().any(|t| t[1] != 0), "there was something to compare");

@@ -6,7 +6,7 @@ use super::last_frame::Given;
 use super::outliers;
 use super::plane::{V, dot, sub};
 use super::random::Random;
-use crate::passes::{gradient_means, gradient_means_filter, gradient_of_means};
+use crate::passes::{Nth, Step, gradient_means, gradient_means_filter, gradient_of_means};
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings};
 
@@ -123,7 +123,7 @@ fn strata_compare_new_samples_with_their_histories() {
     for features in kinds {
         for (size, moving) in SIZES.into_iter().flat_map(|size| [(size, false), (size, true)]) {
             let given = Given::new(size, &features, Settings::adaptive(), moving);
-            let step = gradient_means::step(Features::of(&features));
+            let step = Step::new(&gradient_means::PASS, Features::of(&features));
             let written = given.bench.run(&step, &given.inputs(&step));
             for (x, y) in given.bench.strata() {
                 let s = given.bench.stratum(x, y).unwrap();
@@ -162,7 +162,7 @@ fn strata_compare_new_samples_with_their_histories() {
 fn a_first_frame_has_nothing_to_compare_with() {
     let mut given = Given::new([33, 17], &[], Settings::adaptive(), false);
     given.bench.continued = false;
-    let step = gradient_means::step(Features::default());
+    let step = Step::new(&gradient_means::PASS, Features::default());
     let written = given.bench.run(&step, &given.inputs(&step));
     assert!(written["samples_out"].iter().all(|record| *record == [0; 4]));
 }
@@ -189,7 +189,8 @@ fn the_filter_is_a_weighted_mean_over_the_same_surface() {
             let given = some_means(records.len(), &mut random);
             let [now, before] = [0, 1].map(|which| given.iter().map(|m| m.pack()[which]).collect::<Vec<_>>());
             let inputs = [("samples", records.clone()), ("now", now), ("before", before)];
-            let written = bench.run(&gradient_means_filter::step(Features::default(), level), &inputs);
+            let written = bench
+                .run(&Step::nth(&gradient_means_filter::PASS, Features::default(), Nth::iteration(level)), &inputs);
             for (x, y) in bench.strata() {
                 let s = bench.stratum(x, y).unwrap();
                 let (mut sum, mut largest, mut weights) = (Means::default(), vec![0.0; 10], 0.0);
@@ -285,7 +286,7 @@ fn the_gradient_is_what_exceeds_the_noise() {
     let mut changed = 0;
     for with_ratio in [false, true] {
         let features = if with_ratio { Features::of(&[Feature::HistoryRatio]) } else { Features::default() };
-        let written = bench.run(&gradient_of_means::step(features), &inputs);
+        let written = bench.run(&Step::new(&gradient_of_means::PASS, features), &inputs);
         for (s, levels) in levels.iter().enumerate() {
             let what = |name| format!("stratum {s}, ratio {with_ratio}: {name}");
             let there = records[s][0] != 0;

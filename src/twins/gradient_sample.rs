@@ -5,7 +5,7 @@ use super::codec::{depth, pack_motion, unpack_motion, unpack_normal, word};
 use super::plane::{Pinhole, dot, sub};
 use super::random::Random;
 use crate::Settings;
-use crate::passes::gradient_sample;
+use crate::passes::{Step, gradient_sample};
 use crate::plan::{Feature, Features};
 
 /// Texels of two words.
@@ -22,7 +22,10 @@ fn choose(bench: &Bench, guide: &[[u32; 2]], before: &[Texel]) -> Vec<Texel> {
         ("motion", guides(&motion)),
         ("samples_previous", before.to_vec()),
     ];
-    bench.run(&gradient_sample::step(Features::default()), &inputs).remove("samples_out").unwrap_or_default()
+    bench
+        .run(&Step::new(&gradient_sample::PASS, Features::default()), &inputs)
+        .remove("samples_out")
+        .unwrap_or_default()
 }
 
 #[test]
@@ -87,7 +90,7 @@ fn what_is_chosen_is_the_same_surface_and_was_no_sample_before() {
             inputs.push(("object", object.iter().map(|&o| [o; 4]).collect()));
             inputs.push(("object_previous", object_before.iter().map(|&o| [o; 4]).collect()));
         }
-        let records = bench.run(&gradient_sample::step(features), &inputs).remove("samples_out").unwrap();
+        let records = bench.run(&Step::new(&gradient_sample::PASS, features), &inputs).remove("samples_out").unwrap();
         for (x, y) in bench.strata() {
             strata += 1;
             let record = records[bench.stratum(x, y).unwrap()];

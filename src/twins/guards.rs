@@ -2,7 +2,7 @@
 
 use super::compute::compute;
 use super::random::Random;
-use crate::passes::Pass;
+use crate::passes::resolve;
 use crate::plan::Features;
 
 /// What `BRIGHTEST` of color.wgsl says to be let through at most.
@@ -45,7 +45,7 @@ fn colors() -> Vec<[f32; 4]> {
 #[test]
 fn what_is_not_a_number_is_seen_and_stopped() {
     let colors = colors();
-    let results = compute(include_str!("guards.wgsl"), Pass::Resolve, Features::default(), &colors, colors.len());
+    let results = compute(include_str!("guards.wgsl"), &resolve::PASS, Features::default(), &colors, colors.len());
     for (color, found) in colors.iter().zip(results) {
         let what = || format!("{:08x?}", color.map(f32::to_bits));
         let finite: f32 = (0..3).map(|c| if color[c].is_finite() { [1.0, 2.0, 4.0][c] } else { 0.0 }).sum();

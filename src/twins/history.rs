@@ -3,7 +3,7 @@
 use super::codec::{hash, history_exponent};
 use super::compute::compute;
 use super::random::Random;
-use crate::passes::Pass;
+use crate::passes::resolve;
 use crate::plan::Features;
 
 struct Case {
@@ -32,7 +32,7 @@ fn run(cases: &[Case]) -> Vec<([f64; 3], f64, f64)> {
             [[r, g, b, c.variance], [c.length, c.alpha, c.frames as f32, c.spread]]
         })
         .collect();
-    let found = compute(include_str!("history.wgsl"), Pass::Resolve, Features::default(), &numbers, 2 * cases.len());
+    let found = compute(include_str!("history.wgsl"), &resolve::PASS, Features::default(), &numbers, 2 * cases.len());
     found.chunks_exact(2).map(|t| ([0, 1, 2].map(|i| t[0][i].into()), t[0][3].into(), t[1][0].into())).collect()
 }
 

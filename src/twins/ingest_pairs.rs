@@ -5,7 +5,7 @@ use super::codec::{assert_close, luminance, unpack_rgb, word};
 use super::plane::V;
 use super::random::Random;
 use crate::Settings;
-use crate::passes::ingest_pairs;
+use crate::passes::{Step, ingest_pairs};
 use crate::plan::{Feature, Features};
 
 /// Albedos that f16 holds exactly.
@@ -24,7 +24,7 @@ fn values(count: usize, nothing: usize, random: &mut Random) -> Vec<V> {
 }
 
 fn check(features: &[Feature]) {
-    let step = ingest_pairs::step(Features::of(features));
+    let step = Step::new(&ingest_pairs::PASS, Features::of(features));
     let has = |feature| step.features.has(feature);
     let mut pairs = 0;
     for size in SIZES {

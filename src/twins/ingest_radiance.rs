@@ -5,7 +5,7 @@ use super::codec::{assert_close, unpack_rgb};
 use super::plane::V;
 use super::random::Random;
 use crate::Settings;
-use crate::passes::ingest_radiance;
+use crate::passes::{Step, ingest_radiance};
 use crate::plan::{Feature, Features};
 
 fn half(bits: u32) -> f64 {
@@ -39,7 +39,7 @@ fn known(x: f32) -> f64 {
 }
 
 fn check(features: &[Feature], continued: bool) {
-    let step = ingest_radiance::step(Features::of(features));
+    let step = Step::new(&ingest_radiance::PASS, Features::of(features));
     let has = |feature| step.features.has(feature);
     let mut holes = 0;
     for size in SIZES {
@@ -67,8 +67,10 @@ fn check(features: &[Feature], continued: bool) {
             ("samples", records.clone()),
             ("albedo_previous", before.iter().map(|&h| [h | h << 16, h, 0, 0]).collect()),
         ];
-        let used: Vec<_> =
-            all.into_iter().filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|b| b.0 == *n)).collect();
+        let used: Vec<_> = all
+            .into_iter()
+            .filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|bound| bound.name == *n))
+            .collect();
         let written = bench.run(&step, &used);
         for (x, y) in bench.pixels() {
             let i = bench.at(x, y).unwrap();

@@ -5,7 +5,7 @@ use super::codec::{assert_close, depth, unpack_motion, unpack_normal, word};
 use super::plane::{Pinhole, V, dot, scale, unit};
 use super::random::Random;
 use crate::Settings;
-use crate::passes::ingest_surface;
+use crate::passes::{Step, ingest_surface};
 use crate::plan::{Feature, Features};
 
 /// A point of the unfolded octahedron, −1…1 (Meyer et al. 2010).
@@ -37,7 +37,7 @@ const BROKEN: [f32; 2] = [f32::NAN, f32::NEG_INFINITY];
 
 fn check(features: &[Feature]) {
     let features = Features::of(features);
-    let step = ingest_surface::step(features);
+    let step = Step::new(&ingest_surface::PASS, features);
     for size in SIZES {
         let mut bench = Bench::new(size, Settings::adaptive());
         bench.previous.eye[0] += 0.1;

@@ -82,7 +82,7 @@ impl Given {
             bench.previous.eye[0] += 0.05;
             bench.previous.jitter = [-0.4, 0.1];
         }
-        let features = temporal::step(Features::of(features), None).features;
+        let features = temporal::PASS.features_of(Features::of(features));
         let mut random = Random(u64::from(size[0]) + u64::from(moving));
         let guide = bench.guide(&mut random);
         let now = bench.clone();
@@ -189,7 +189,9 @@ impl Given {
             ("candidates", self.candidates.clone()),
             ("limit", self.limit.clone()),
         ];
-        all.into_iter().filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|b| b.0 == *n)).collect()
+        all.into_iter()
+            .filter(|(n, _): &(&str, Vec<Texel>)| step.bindings.iter().any(|bound| bound.name == *n))
+            .collect()
     }
 
     /// A pixel's sample, if it has one.

@@ -1,7 +1,7 @@
 //! Structs that exist twice, in Rust and in WGSL, must agree on where each field lies.
 
 use crate::gpu::compose::{Permutation, Shaders};
-use crate::passes::Pass;
+use crate::passes::{Pass, trace};
 use crate::plan::{Feature, Features};
 use wgpu::naga::{Module, TypeInner};
 
@@ -13,12 +13,12 @@ pub(crate) fn assert_layout(name: &str, fields: &[Field], size: usize) {
     use Feature::*;
     let features =
         Features::of(&[Textures, Lights, Emitters, PunctualLights, EnvironmentLight, DirectEmission, Specular]);
-    assert_layout_in(Pass::Trace, features, name, fields, size);
+    assert_layout_in(&trace::PASS, features, name, fields, size);
 }
 
 /// As [`assert_layout`], in another shader.
-pub(crate) fn assert_layout_in(pass: Pass, features: Features, name: &str, fields: &[Field], size: usize) {
-    let permutation = Permutation { pass, features, traversal: Default::default(), view: 0 };
+pub(crate) fn assert_layout_in(pass: &'static Pass, features: Features, name: &str, fields: &[Field], size: usize) {
+    let permutation = Permutation { pass, features, traversal: Default::default(), view: None };
     let module = Shaders::new().and_then(|mut s| s.compose(permutation)).unwrap_or_else(|e| panic!("{e}"));
     let (members, span) = find(&module, name);
     assert_eq!(members, fields.iter().map(|&(n, at)| (n.to_owned(), at)).collect::<Vec<_>>(), "{name}");

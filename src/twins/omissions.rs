@@ -1,7 +1,7 @@
 //! What is left out of a plan is left out of its shaders, as naga sees them, of its bindings and of its memory.
 
 use crate::gpu::compose::{Permutation, Shaders};
-use crate::passes::Pass;
+use crate::passes::{Pass, resolve, temporal, trace, visibility};
 use crate::plan::{Changes, Feature, Features, Plan, Step, Traits, Traversal};
 use crate::{FilterSettings, Gradient, Settings};
 use std::collections::BTreeSet;
@@ -34,8 +34,7 @@ fn plan(traits: &Traits, filter: FilterSettings, changes: Changes) -> Plan {
 
 fn compose(shaders: &mut Shaders, step: &Step) -> Module {
     let traversal = Traversal::Tree { stack: 8 };
-    let permutation = Permutation { pass: step.pass, features: step.features, traversal, view: 0 };
-    shaders.compose(permutation).unwrap_or_else(|e| panic!("{e}"))
+    shaders.compose(Permutation::of(step, traversal)).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Names of all functions and bindings of a shader.
@@ -52,7 +51,7 @@ fn expressions(module: &Module) -> usize {
 }
 
 /// A step with a feature, and the step of the same pass where that is left out.
-fn pair<'a>(with: &'a Plan, without: &'a Plan, pass: Pass) -> [&'a Step; 2] {
+fn pair<'a>(with: &'a Plan, without: &'a Plan, pass: &Pass) -> [&'a Step; 2] {
     [with, without]
         .map(|plan| plan.steps.iter().find(|step| step.pass == pass).unwrap_or_else(|| panic!("no {pass:?}")))
 }
@@ -125,7 +124,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     ];
     for (traits, lost) in cases {
         let lean = plan(&traits, FilterSettings::default(), Changes::ANY);
-        assert_leaner(&mut shaders, pair(&everything, &lean, Pass::Trace), lost);
+        assert_leaner(&mut shaders, pair(&everything, &lean, &trace::PASS), lost);
     }
 }
 
@@ -136,13 +135,13 @@ fn what_the_settings_and_the_frame_do_not_ask_for_is_not_in_the_shaders() {
     let off = FilterSettings { gradient: Gradient::Off, ..Default::default() };
     let constant = plan(&ALL, off.clone(), Changes::ANY);
     let still = plan(&ALL, off, Changes::NONE);
-    let [with, without] = pair(&adaptive, &constant, Pass::Temporal);
+    let [with, without] = pair(&adaptive, &constant, &temporal::PASS);
     for binding in ["samples", "gradient", "ratio"] {
         assert!(names(&compose(&mut shaders, with)).contains(binding), "{binding}");
         assert!(!names(&compose(&mut shaders, without)).contains(binding), "{binding}");
     }
     for binding in ["guide_previous", "motion", "object", "object_previous"] {
-        let [with, without] = pair(&constant, &still, Pass::Temporal);
+        let [with, without] = pair(&constant, &still, &temporal::PASS);
         assert!(names(&compose(&mut shaders, with)).contains(binding), "{binding}");
         assert!(!names(&compose(&mut shaders, without)).contains(binding), "{binding}");
     }
@@ -157,7 +156,7 @@ fn what_the_settings_and_the_frame_do_not_ask_for_is_not_in_the_shaders() {
     );
     let bare = FilterSettings { iterations: 0, gradient: Gradient::Off, outlier_limit: 0.0, ..Default::default() };
     let bare = plan(&Traits::default(), bare, Changes::ANY);
-    assert_eq!(passes(&bare), [Pass::Visibility, Pass::Trace, Pass::Temporal, Pass::Resolve]);
+    assert_eq!(passes(&bare), [&visibility::PASS, &trace::PASS, &temporal::PASS, &resolve::PASS]);
     let size = [1920, 1080];
     let bytes = [&adaptive, &constant, &bare].map(|plan| plan.bytes(size, false));
     assert!(bytes[0] > bytes[1] && bytes[1] > bytes[2], "{bytes:?}");

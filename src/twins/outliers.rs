@@ -5,8 +5,8 @@ use super::codec::{assert_close, depth, float, luminance, unpack_rgb, word};
 use super::last_frame::Given;
 use super::random::Random;
 use crate::Settings;
-use crate::passes::{outlier_candidates, outlier_counts, outlier_limit};
-use crate::plan::Feature;
+use crate::passes::{Step, outlier_candidates, outlier_counts, outlier_limit};
+use crate::plan::{Feature, Features};
 
 const MOST_RATIO: f64 = 1e9;
 const LEAST_LEVEL: f64 = 0.25;
@@ -316,7 +316,7 @@ fn candidates_are_what_is_far_above_its_level() {
             let mut random = Random(7);
             let before = candidates(&given.bench, &mut random);
             let limit = limits(&given.bench, &mut random);
-            let step = outlier_candidates::step(given.features);
+            let step = Step::new(&outlier_candidates::PASS, given.features);
             let mut inputs = given.inputs(&step);
             inputs.push(("candidates_previous", before.clone()));
             inputs.push(("limit_previous", limit.clone()));
@@ -416,13 +416,13 @@ fn a_limit_is_what_the_window_has_seen() {
             })
             .collect();
         let input = || ("candidates", records.clone());
-        let mut written = bench.run(&outlier_counts::step(), &[input()]);
+        let mut written = bench.run(&Step::new(&outlier_counts::PASS, Features::default()), &[input()]);
         let inputs = [
             input(),
             ("candidate_counts", written.remove("counts_out").unwrap()),
             ("sums", written.remove("sums_out").unwrap()),
         ];
-        let limits = &bench.run(&outlier_limit::step(), &inputs)["limit_out"];
+        let limits = &bench.run(&Step::new(&outlier_limit::PASS, Features::default()), &inputs)["limit_out"];
         let [across, down] = size.map(|s| s.div_ceil(3) as i32);
         for (sx, sy) in (0..down).flat_map(|sy| (0..across).map(move |sx| (sx, sy))) {
             let (expected, near) = limit(&bench, &records, [sx, sy]);

@@ -4,7 +4,7 @@ use super::codec::{pack_motion, unpack_motion};
 use super::compute::compute;
 use super::plane::{V, cross, dot, length, unit};
 use super::random::Random;
-use crate::passes::Pass;
+use crate::passes::resolve;
 use crate::plan::Features;
 
 struct Case {
@@ -66,7 +66,7 @@ fn every_format_keeps_what_it_promises() {
             [[r, g, b, 0.0], [x, y, z, 0.0], [mx, my, depth, f32::from_bits(c.octahedral)]]
         })
         .collect();
-    let results = compute(include_str!("packing.wgsl"), Pass::Resolve, Features::default(), &numbers, 6 * cases.len());
+    let results = compute(include_str!("packing.wgsl"), &resolve::PASS, Features::default(), &numbers, 6 * cases.len());
     for (case, found) in cases.iter().zip(results.chunks_exact(6)) {
         let largest = f64::from(case.color.into_iter().fold(0.0, f32::max));
         for (i, &exact) in case.color.iter().enumerate() {

@@ -3,16 +3,13 @@
 
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
-use crate::passes::{self, Pass};
+use crate::gpu::resource::Resource;
 use crate::plan::{Changes, Feature, Features, HostTraits, Plan, Step, Traits, Traversal};
 use crate::scene::{Environment, GpuScene, Scene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
 use std::collections::{BTreeMap, BTreeSet};
 use wgpu::{BackendOptions, Backends, Device, DeviceDescriptor, Instance, InstanceDescriptor, Queue, TextureFormat};
-
-/// Bound by name although no step lists them.
-const GIVEN: [&str; 6] = ["frame", "stride", "show", "counts", "analytic_lights", "analytic_lights_previous"];
 
 /// wgpu's validation without any GPU.
 fn noop_device() -> (Device, Queue) {
@@ -132,7 +129,7 @@ fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
 
 /// Plans whose steps cover what is reachable: tracing depends on traits, sampling and gradient alone, filtering on the
 /// filter and on whether there are objects.
-fn plans() -> Vec<(Plan, Mode)> {
+fn plans() -> Vec<Plan> {
     let mut plans = Vec::new();
     for (traits, (sampling, gradient)) in product(&traits(), &product(&SAMPLINGS, &GRADIENTS)) {
         for (mode, target) in product(&MODES, &TARGETS) {
@@ -143,9 +140,9 @@ fn plans() -> Vec<(Plan, Mode)> {
             };
             let plan = Plan::path_traced(&traits, &settings, Changes::ANY, target);
             if (sampling, gradient, mode) == (Sampling::Both, Gradient::Reshade, Mode::Denoise) {
-                plans.push((plan.clone().on_cpu(), mode));
+                plans.push(plan.clone().on_cpu());
             }
-            plans.push((plan, mode));
+            plans.push(plan);
         }
     }
     // Paths of one frame in one dispatch, two, or more.
@@ -153,15 +150,15 @@ fn plans() -> Vec<(Plan, Mode)> {
         let tracer = TracerSettings { samples, ..Default::default() };
         let traits = Traits { levels: 12, ..traits };
         let settings = Settings { tracer, ..Settings::adaptive() };
-        plans.push((Plan::path_traced(&traits, &settings, Changes::ANY, TARGETS[1]), Mode::Denoise));
+        plans.push(Plan::path_traced(&traits, &settings, Changes::ANY, TARGETS[1]));
     }
     for ((instanced, views), filter) in product(&product(&[false, true], &[false, true]), &filters(&GRADIENTS)) {
         let settings = Settings { filter, ..Settings::adaptive() };
         let traits = Traits { instanced, views, ..Default::default() };
         for changes in CHANGES {
             let plan = Plan::path_traced(&traits, &settings, changes, TextureFormat::Rgba32Float);
-            plans.push((plan.clone().on_cpu(), Mode::Denoise));
-            plans.push((plan, Mode::Denoise));
+            plans.push(plan.clone().on_cpu());
+            plans.push(plan);
         }
     }
     plans
@@ -169,12 +166,12 @@ fn plans() -> Vec<(Plan, Mode)> {
 
 /// The same for hosts' frames: taking them in depends on the traits and the gradient, filtering on the filter, on whether there
 /// are objects, and on what kind of pairs or λ there is.
-fn host_plans() -> Vec<(Plan, Mode)> {
+fn host_plans() -> Vec<Plan> {
     let mut plans = Vec::new();
     for (traits, gradient) in product(&host_traits(), &HOST_GRADIENTS) {
         let settings = Settings { filter: FilterSettings { gradient, ..Default::default() }, ..Settings::adaptive() };
         for changes in CHANGES {
-            plans.push((Plan::hosted(&traits, &settings, changes, TextureFormat::Rgba32Float), Mode::Denoise));
+            plans.push(Plan::hosted(&traits, &settings, changes, TextureFormat::Rgba32Float));
         }
     }
     // The host's own images, and copies of some or all.
@@ -192,13 +189,13 @@ fn host_plans() -> Vec<(Plan, Mode)> {
         for gradient in HOST_GRADIENTS {
             let filter = FilterSettings { gradient, ..Default::default() };
             let settings = Settings { mode, filter, ..Settings::adaptive() };
-            plans.push((Plan::hosted(&traits, &settings, Changes::ANY, target), mode));
+            plans.push(Plan::hosted(&traits, &settings, Changes::ANY, target));
         }
     }
     for (instances, (marked, filter)) in product(&[false, true], &product(&[false, true], &filters(&HOST_GRADIENTS))) {
         let traits = HostTraits { instances, pairs_in_place: marked, confidence: marked, ..Default::default() };
         let settings = Settings { filter, ..Settings::adaptive() };
-        plans.push((Plan::hosted(&traits, &settings, Changes::ANY, TextureFormat::Rgba32Float), Mode::Denoise));
+        plans.push(Plan::hosted(&traits, &settings, Changes::ANY, TextureFormat::Rgba32Float));
     }
     plans
 }
@@ -208,17 +205,16 @@ pub(super) fn steps() -> BTreeMap<Permutation, Step> {
     let formats = [TextureFormat::Rgba8Unorm, TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
     let mut steps = BTreeMap::new();
     let mut add = |step: Step| {
-        let view = if step.pass == Pass::View { step.iteration } else { 0 };
         let traversal = if step.features.has(Feature::FewTriangles) {
             Traversal::Every { triangles: 24 }
         } else {
             Traversal::Tree { stack: 32 }
         };
-        steps.entry(Permutation { pass: step.pass, features: step.features, traversal, view }).or_insert(step);
+        steps.entry(Permutation::of(&step, traversal)).or_insert(step);
     };
-    for (plan, mode) in plans().into_iter().chain(host_plans()) {
+    for plan in plans().into_iter().chain(host_plans()) {
         for (view, format) in product(&View::ALL, &formats) {
-            match passes::view::step(view, &plan, mode, format, |_| true) {
+            match plan.show(view, format, |_| true) {
                 Ok(step) => add(step),
                 Err(Error::NoView { .. }) => {}
                 Err(e) => panic!("{e}"),
@@ -245,8 +241,8 @@ pub(super) fn traversals() -> BTreeMap<Permutation, Step> {
             ..Traits::default().everything()
         };
         let plan = Plan::path_traced(&traits, &Settings::adaptive(), Changes::ANY, TextureFormat::Rgba32Float);
-        for step in plan.steps.into_iter().filter(|s| s.pass.traces()) {
-            steps.insert(Permutation { pass: step.pass, features: step.features, traversal, view: 0 }, step);
+        for step in plan.steps.into_iter().filter(|step| step.pass.traces) {
+            steps.insert(Permutation::of(&step, traversal), step);
         }
     }
     steps
@@ -256,17 +252,26 @@ fn check(device: &Device, scene: &GpuScene, shaders: &mut Shaders, permutation: 
     let what = format!("{} with {:?}", permutation.pass.name(), permutation.features);
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let module = shaders.compose(permutation).unwrap_or_else(|e| panic!("{e}"));
-    let kernel = Kernel::new(device, module, permutation).unwrap_or_else(|e| panic!("{e}"));
+    let kernel = Kernel::new(device, module, step).unwrap_or_else(|e| panic!("{e}"));
     if let Some(error) = pollster::block_on(scope.pop()) {
         panic!("{what}: {error}");
     }
-    let used: BTreeSet<&str> = kernel.names(0).filter(|n| !GIVEN.contains(n)).collect();
-    let named: BTreeSet<&str> = step.bindings.iter().map(|(name, _)| *name).collect();
-    assert_eq!(used, named, "{what}: what its shader uses, and what its step names");
-    for name in kernel.names(1).chain(kernel.names(0).filter(|n| n.starts_with("analytic"))) {
-        let there = scene.resource(name).is_some() || scene.snapshot().resource(name).is_some();
-        assert!(there, "{what}: the scene has no `{name}`");
+    let mut used = BTreeSet::new();
+    for resource in kernel.resources() {
+        match resource {
+            Resource::Image(number) => assert!(used.insert(number), "{what}: {:?} twice", step.bindings[number]),
+            Resource::Scene(binding) => {
+                let there = scene.resource(binding).is_some() || scene.snapshot().resource(binding).is_some();
+                assert!(there, "{what}: the scene has no {binding:?}");
+            }
+            Resource::Frame | Resource::Stride | Resource::Show | Resource::Counts => {}
+        }
     }
+    let unused: Vec<_> = (0..step.bindings.len()).filter(|number| !used.contains(number)).collect();
+    let unused: Vec<_> = unused.into_iter().map(|number| step.bindings[number].name).collect();
+    assert!(unused.is_empty(), "{what}: its shader does not use {unused:?}");
+    let names: BTreeSet<_> = step.bindings.iter().map(|bound| bound.name).collect();
+    assert_eq!(names.len(), step.bindings.len(), "{what}: a name is bound twice");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use super::codec::{assert_close, depth, float, unpack_normal, word};
 use super::plane::{Pinhole, V, add, dot, length, scale, sub};
 use super::random::Random;
 use crate::Settings;
-use crate::passes::reshade;
+use crate::passes::{Step, reshade};
 use crate::plan::{Feature, Features};
 
 /// How pixels move, column by column.
@@ -80,7 +80,7 @@ fn check(features: Features) {
         if knows_depth {
             inputs.push(("previous_depth", motions.iter().map(|m| [word(m[2]), 0, 0, 0]).collect()));
         }
-        let written = bench.run(&reshade::step(features), &inputs);
+        let written = bench.run(&Step::new(&reshade::PASS, features), &inputs);
         for (sx, sy) in bench.strata() {
             let s = bench.stratum(sx, sy).unwrap();
             let record = records[s];

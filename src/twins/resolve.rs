@@ -6,7 +6,7 @@ use super::codec::{
 };
 use super::random::Random;
 use crate::Settings;
-use crate::passes::resolve;
+use crate::passes::{Nth, Step, resolve};
 use crate::plan::{Feature, Features, Image};
 
 /// f16 numbers without a fraction beyond their 10 bits, as the tracer stores albedo.
@@ -55,9 +55,10 @@ fn check(features: &[Feature], bright: f64) {
             });
             let emission = texels(&mut |r| packed(r));
             let before = texels(&mut |r| [0; 4].map(|_| word(10.0 * r.unit())));
-            let step = resolve::step(
+            let step = Step::nth(
+                &resolve::PASS,
                 features,
-                (!unfiltered).then_some(if temporal_only { Image::History } else { Image::Color(0) }),
+                Nth::of(Some(if temporal_only { Image::History } else { Image::Color(0) })),
             );
             let mut inputs = vec![(if unfiltered { "radiance" } else { "color" }, color.clone())];
             if features.has(Feature::Background) {

@@ -3,7 +3,7 @@
 use super::compute::compute_with;
 use super::gpu::gpu;
 use super::random::Random;
-use crate::passes::Pass;
+use crate::passes::trace;
 use crate::plan::{Feature, Features};
 use crate::scene::{Environment, GpuScene, Scene, pack, unpack};
 use std::f64::consts::PI;
@@ -35,9 +35,10 @@ fn draw(environment: &Environment, numbers: &[[f32; 4]]) -> Vec<[[f32; 4]; 2]> {
     let scene = Scene { environment: Some(environment.clone()), ..Default::default() };
     let uploaded = GpuScene::new(&gpu().device, &gpu().queue, &scene).unwrap();
     let features = Features::of(&[Feature::Lights, Feature::EnvironmentLight]);
-    let results = compute_with(include_str!("sky.wgsl"), Pass::Trace, features, numbers, 2 * numbers.len(), &|name| {
-        uploaded.resource(name)
-    });
+    let results =
+        compute_with(include_str!("sky.wgsl"), &trace::PASS, features, numbers, 2 * numbers.len(), &|binding| {
+            uploaded.resource(binding)
+        });
     results.as_chunks::<2>().0.to_vec()
 }
 

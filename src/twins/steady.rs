@@ -5,7 +5,7 @@ use super::codec::{assert_close, depth, luminance, pack_tap, radiance, unpack_no
 use super::plane::{V, dot};
 use super::random::Random;
 use crate::Settings;
-use crate::passes::steady;
+use crate::passes::{Nth, Step, steady};
 use crate::plan::{Features, Image};
 
 /// Mean and deviation of a channel over the 3×3 pixels of the same surface; and whether a normal was at the threshold.
@@ -50,7 +50,8 @@ fn the_last_output_is_blended_in_within_its_neighbourhood() {
             ("color", color.clone()),
             ("reprojected", last.clone()),
         ];
-        let written = bench.run(&steady::step(Features::default(), Image::Color(0)), &inputs);
+        let written =
+            bench.run(&Step::nth(&steady::PASS, Features::default(), Nth::of(Some(Image::Color(0)))), &inputs);
         let colors: Vec<V> = color.iter().map(|&t| unpack_tap(t).0).collect();
         for (x, y) in bench.pixels() {
             let i = bench.at(x, y).unwrap();

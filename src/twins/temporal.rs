@@ -8,7 +8,7 @@ use super::codec::{
 use super::last_frame::{Before, Given, INFINITE, NO_SAMPLE, Notes};
 use super::plane::{V, add, scale};
 use super::strata::{Site, exponent, falloff};
-use crate::passes::temporal;
+use crate::passes::{Nth, Step, temporal};
 use crate::plan::{Feature, Image};
 use crate::{FilterSettings, Settings};
 
@@ -35,7 +35,7 @@ pub(super) struct Blended {
 
 impl Given {
     fn run(&self) -> std::collections::BTreeMap<&'static str, Vec<Texel>> {
-        let step = temporal::step(self.features, Some(Image::Gradient(0)));
+        let step = Step::nth(&temporal::PASS, self.features, Nth::of(Some(Image::Gradient(0))));
         self.bench.run(&step, &self.inputs(&step))
     }
 

@@ -4,7 +4,7 @@ use super::gpu::gpu;
 use super::random::Random;
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::used_bindings;
-use crate::passes::Pass;
+use crate::passes::{SceneBinding, visibility};
 use crate::plan::{Feature, Features};
 use crate::scene::{GpuScene, Material, Mesh, Node, Pose, Scene, Transform, builtin};
 use glam::{DMat4, DVec3, Vec3A};
@@ -135,7 +135,7 @@ fn ask_gpu(scene: &GpuScene, queries: &[Query]) -> Vec<Answer> {
     let features = [(Feature::Instanced, traits.instanced), (Feature::FewTriangles, traits.few_triangles)];
     let features: Features = features.into_iter().filter(|(_, on)| *on).map(|(f, _)| f).collect();
     let permutation =
-        Permutation { pass: Pass::Visibility, features, traversal: scene.traversal(&scene.traits()), view: 0 };
+        Permutation { pass: &visibility::PASS, features, traversal: scene.traversal(&scene.traits()), view: None };
     let module = Shaders::new().and_then(|mut s| s.compose_source(include_str!("traversal.wgsl"), permutation));
     let module = module.unwrap_or_else(|e| panic!("{e}"));
     let used = used_bindings(&module).unwrap();
@@ -171,7 +171,9 @@ fn ask_gpu(scene: &GpuScene, queries: &[Query]) -> Vec<Answer> {
         let resource = |name: &str| match name {
             "rays" => rays.as_entire_binding(),
             "answers" => answers.as_entire_binding(),
-            _ => scene.resource(name).unwrap_or_else(|| panic!("no `{name}`")),
+            _ => SceneBinding::named(name)
+                .and_then(|binding| scene.resource(binding))
+                .unwrap_or_else(|| panic!("no `{name}`")),
         };
         let entries: Vec<_> = used
             .iter()

@@ -10,7 +10,7 @@ use super::plane::{V, add, dot, scale, sub};
 use super::random::Random;
 use super::strata::falloff;
 use crate::Settings;
-use crate::passes::variance;
+use crate::passes::{Step, variance};
 use crate::plan::{Feature, Features};
 
 fn kept(texel: Texel) -> Kept {
@@ -143,7 +143,7 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
         sets.into_iter().flat_map(|f| SIZES.map(|s| (f, s))).flat_map(|c| [(c, 1.0), (c, 1e9)])
     {
         let bench = Bench::new(size, Settings::adaptive());
-        let step = variance::step(Features::of(features));
+        let step = Step::new(&variance::PASS, Features::of(features));
         let mut random = Random(12);
         let guide = bench.guide(&mut random);
         let texel = |g: &[u32; 2], random: &mut Random| -> Texel {

@@ -133,7 +133,7 @@ impl Embed {
             let index = if film.converges() { self.converged } else { self.index };
             let frame = Frame { scene: &self.scene, camera, index, target: &film.radiance };
             match stopwatch.as_mut().filter(|watch| watch.source == film.source) {
-                Some(watch) => film.denoiser.render_stepwise(device, encoder, &frame, |pass, e| watch.stop(pass, e))?,
+                Some(watch) => film.denoiser.stepwise(|pass, e| watch.stop(pass, e)).render(device, encoder, &frame)?,
                 None => film.denoiser.render(device, encoder, &frame)?,
             }
         }

@@ -22,7 +22,7 @@ impl Stopwatch {
     }
 
     /// Submits what was recorded since the last stop, and waits for it.
-    pub fn stop(&mut self, pass: Pass, encoder: &mut CommandEncoder) {
+    pub fn stop(&mut self, pass: &Pass, encoder: &mut CommandEncoder) {
         let next = self.gpu.device.create_command_encoder(&Default::default());
         self.gpu.queue.submit([std::mem::replace(encoder, next).finish()]);
         // A device that was lost is reported by its own callback.

@@ -135,8 +135,9 @@ impl<'g> CleanAlbedo<'g> {
             let camera = frame.camera.viewpoint(frame.raster);
             let surfaces =
                 Surfaces { instance: id.as_ref(), ..Surfaces::new(camera, number, &depth, &normal, &motion) };
-            denoiser.begin_frame_stepwise(device, encoder, &surfaces, &mut *after)?;
-            denoiser.denoise_stepwise(device, encoder, &Shading::new(&color, target), after)
+            let mut denoiser = denoiser.stepwise(after);
+            denoiser.begin_frame(device, encoder, &surfaces)?;
+            denoiser.denoise(device, encoder, &Shading::new(&color, target))
         })?;
         self.played += 1;
         let clean = film.numbers(View::Denoised)?;

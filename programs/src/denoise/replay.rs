@@ -190,7 +190,8 @@ fn expose(
             lambda: lambda.filter(|_| gradient == Gradient::Lambda),
             ..Shading::new(required(Layer::Color)?, target)
         };
-        denoiser.begin_frame_stepwise(device, encoder, &surfaces, &mut *after)?;
-        denoiser.denoise_stepwise(device, encoder, &shading, after)
+        let mut denoiser = denoiser.stepwise(after);
+        denoiser.begin_frame(device, encoder, &surfaces)?;
+        denoiser.denoise(device, encoder, &shading)
     })
 }

@@ -16,7 +16,7 @@ const FOLDER: &str = "target/references";
 const TRACERS: [&str; 2] = ["shaders/visibility.wgsl", "shaders/trace.wgsl"];
 
 /// What hands them the scene, and takes the mean. What reads scenes from files is not there: its outcome is hashed.
-const SCENE: [&str; 4] = ["programs/src/tracing.rs", "src/plan/batches.rs", "src/scene/gpu", "src/traced.rs"];
+const SCENE: [&str; 4] = ["programs/src/tracing.rs", "src/plan/batches.rs", "src/scene/gpu", "src/denoiser/traced.rs"];
 
 pub struct Script {
     pub stage: Stage,

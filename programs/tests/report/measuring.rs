@@ -1,7 +1,7 @@
 //! Measurements of a few small frames.
 
-use asvgf::scene::{GpuScene, builtin};
 use asvgf::Settings;
+use asvgf::scene::{GpuScene, builtin};
 use asvgf_programs::gpu::Gpu;
 use asvgf_programs::report::measure::{self, Output};
 use asvgf_programs::report::methods::{CONTROL, DEFAULT, all};

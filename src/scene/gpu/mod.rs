@@ -16,9 +16,11 @@ mod visible;
 #[cfg(test)]
 pub(crate) use light::radiance::{pack, unpack};
 pub(crate) use snapshot::Snapshot;
+pub(crate) use visible::Visible;
 
 use super::description::{Pose, Scene, SceneError};
-use crate::plan::{Traits, Traversal};
+use crate::passes::{SceneBinding, Traversal};
+use crate::plan::Traits;
 use arrangement::Arrangement;
 use assembly::Assembly;
 use memory::capacity::Capacity;
@@ -55,7 +57,7 @@ impl GpuScene {
         let buffers = Buffers::new(device, queue, &assembly);
         let id = NEXT.fetch_add(1, Ordering::Relaxed);
         let Assembly { traits, stack, triangles, pose, arrangement, analytic_lights, .. } = assembly;
-        let (visible, placements) = (arrangement.visible(&pose), arrangement.placements(&pose));
+        let (visible, placements) = (Arc::new(arrangement.visible(&pose)), arrangement.placements(&pose));
         let snapshot = Arc::new(Snapshot::new(device, id, visible, &placements, &analytic_lights));
         Ok(Self { id, traits, stack, triangles, arrangement, buffers, snapshot })
     }
@@ -68,7 +70,7 @@ impl GpuScene {
     /// Names the element of the pose that does not belong to this scene or is not finite. Nothing has changed then.
     pub fn update(&mut self, device: &Device, encoder: &mut CommandEncoder, pose: &Pose) -> Result<(), SceneError> {
         self.arrangement.check(pose)?;
-        let (before, now) = (&self.snapshot.visible, self.arrangement.visible(pose));
+        let (before, now) = (&self.snapshot.visible, Arc::new(self.arrangement.visible(pose)));
         if now == *before {
             return Ok(());
         }
@@ -128,9 +130,9 @@ impl GpuScene {
     }
 
     /// The resource behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.
-    pub(crate) fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
+    pub(crate) fn resource(&self, binding: SceneBinding) -> Option<BindingResource<'_>> {
         match binding {
-            "analytic_lights" => Some(self.snapshot.analytic_lights.as_entire_binding()),
+            SceneBinding::AnalyticLights => Some(self.snapshot.analytic_lights.as_entire_binding()),
             _ => self.buffers.resource(binding),
         }
     }

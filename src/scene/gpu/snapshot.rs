@@ -4,6 +4,8 @@ use super::light::analytic::AnalyticLight;
 use super::memory::buffers::storage;
 use super::memory::folded::Texel;
 use super::visible::Visible;
+use crate::passes::SceneBinding;
+use std::sync::Arc;
 use wgpu::{BindingResource, Buffer, Device};
 
 /// The scene as a denoiser rendered it last. The denoiser compares it with the next frame's to find out what has moved. The scene
@@ -13,7 +15,7 @@ pub(crate) struct Snapshot {
     /// The scene's number in this process.
     pub scene: u64,
     /// Positions of all that is seen, and the strength of all that emits.
-    pub visible: Visible,
+    pub visible: Arc<Visible>,
     /// Placements of the instances: three rows of an affine matrix each.
     pub placements: Buffer,
     /// The lights that the Blinn–Phong gradient evaluates.
@@ -22,22 +24,23 @@ pub(crate) struct Snapshot {
 
 impl Snapshot {
     /// Uploads the placements and lights of the scene with this number.
-    pub fn new(device: &Device, scene: u64, visible: Visible, placements: &[Texel], lights: &[AnalyticLight]) -> Self {
+    pub fn new(
+        device: &Device,
+        scene: u64,
+        visible: Arc<Visible>,
+        placements: &[Texel],
+        lights: &[AnalyticLight],
+    ) -> Self {
         let placements = storage(device, "placements", placements, 3 * size_of::<Texel>());
         let analytic_lights = storage(device, "analytic lights", lights, size_of::<AnalyticLight>());
         Self { scene, visible, placements, analytic_lights }
     }
 
-    /// True if both are of the same scene in the same pose.
-    pub fn shows_the_same_as(&self, other: &Self) -> bool {
-        self.scene == other.scene && self.visible == other.visible
-    }
-
     /// The resource behind a binding that reads the last frame's scene.
-    pub fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
+    pub fn resource(&self, binding: SceneBinding) -> Option<BindingResource<'_>> {
         match binding {
-            "placements_previous" => Some(self.placements.as_entire_binding()),
-            "analytic_lights_previous" => Some(self.analytic_lights.as_entire_binding()),
+            SceneBinding::PlacementsBefore => Some(self.placements.as_entire_binding()),
+            SceneBinding::AnalyticLightsBefore => Some(self.analytic_lights.as_entire_binding()),
             _ => None,
         }
     }

@@ -11,6 +11,7 @@ use super::memory::folded;
 use super::memory::pieces::{self, PIECE, Writer};
 use super::surface::images::Images;
 use super::surface::materials::GpuMaterial;
+use crate::passes::SceneBinding;
 use crate::scene::description::Environment;
 use bytemuck::Pod;
 use wgpu::{
@@ -79,19 +80,21 @@ impl Buffers {
     }
 
     /// The resource behind a binding of shaders/shared/scene.wgsl.
-    pub fn resource(&self, binding: &str) -> Option<BindingResource<'_>> {
+    pub fn resource(&self, binding: SceneBinding) -> Option<BindingResource<'_>> {
         let buffer = match binding {
-            "geometry" => return Some(BindingResource::TextureView(&self.geometry.1)),
-            "materials" => return Some(BindingResource::TextureView(&self.materials.1)),
-            "lights" => return Some(BindingResource::TextureView(&self.lights.1)),
-            "images" => return Some(self.images.resource()),
-            "environment" => return Some(BindingResource::TextureView(&self.sky.as_ref()?.radiance.1)),
-            "environment_table" => return Some(BindingResource::TextureView(&self.sky.as_ref()?.table.1)),
-            "scene" => &self.scene,
-            "attributes" => &self.attributes,
-            "facets" => &self.facets[0],
-            "facet_owners" => &self.facets[1],
-            _ => return None,
+            SceneBinding::Geometry => return Some(BindingResource::TextureView(&self.geometry.1)),
+            SceneBinding::Materials => return Some(BindingResource::TextureView(&self.materials.1)),
+            SceneBinding::Lights => return Some(BindingResource::TextureView(&self.lights.1)),
+            SceneBinding::Images => return Some(self.images.resource()),
+            SceneBinding::Environment => return Some(BindingResource::TextureView(&self.sky.as_ref()?.radiance.1)),
+            SceneBinding::EnvironmentTable => return Some(BindingResource::TextureView(&self.sky.as_ref()?.table.1)),
+            SceneBinding::Scene => &self.scene,
+            SceneBinding::Attributes => &self.attributes,
+            SceneBinding::Facets => &self.facets[0],
+            SceneBinding::FacetOwners => &self.facets[1],
+            SceneBinding::PlacementsBefore | SceneBinding::AnalyticLights | SceneBinding::AnalyticLightsBefore => {
+                return None;
+            }
         };
         Some(buffer.as_entire_binding())
     }

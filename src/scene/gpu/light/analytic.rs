@@ -50,15 +50,14 @@ pub(crate) fn strongest(mut lights: Vec<AnalyticLight>) -> Vec<AnalyticLight> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::passes::Pass;
-    use crate::plan::{Feature, Features};
+    use crate::passes::{Feature, Features, gradient};
     use crate::twins::layout::{assert_layout_in, fields};
 
     #[test]
     fn a_light_lies_where_the_gradient_reads_it() {
         let fields = fields!(AnalyticLight: position, kind, axis, range, intensity, spot_scale, spot_offset, count);
         let blinn_phong = Features::of(&[Feature::BlinnPhong]);
-        assert_layout_in(Pass::Gradient, blinn_phong, "AnalyticLight", fields, size_of::<AnalyticLight>());
+        assert_layout_in(&gradient::PASS, blinn_phong, "AnalyticLight", fields, size_of::<AnalyticLight>());
     }
 
     #[test]

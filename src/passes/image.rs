@@ -16,41 +16,41 @@ pub enum Image {
     Object,
     /// This frame's demodulated radiance.
     Radiance,
-    /// What it was divided by.
+    /// The albedo that it was divided by.
     Albedo,
     /// Emission towards the camera.
     Emission,
     /// Accumulated colour, variance, history length.
     History,
-    /// The history's colour, where it comes from the spatial filter.
+    /// The history's colour, if it comes from the spatial filter.
     Feedback,
     /// Colour and deviation between spatial iterations; two take turns.
     Color(u8),
     /// Records of the strata.
     Samples,
-    /// Of each stratum which path the host is to repeat.
+    /// The path of each stratum that the host is to repeat.
     Repeats,
-    /// How far that path's surface has moved since.
+    /// The distance by which that path's surface has moved since.
     Shifts,
     /// Demodulated radiance now of the pair that the host made for the stratum.
-    PairNow,
-    /// The radiance before of that pair.
-    PairBefore,
-    /// Radiances now of the gradient's pairs, and products; two take turns while they are filtered.
-    PairsNow(u8),
-    /// Radiances before.
-    PairsBefore(u8),
-    /// Means of new samples and the variance of their difference from the histories, of each level of the pyramid.
+    HostPairNow,
+    /// Demodulated radiance before of that pair.
+    HostPairBefore,
+    /// Radiances now of the gradient's pairs, and their products; two take turns while they are filtered.
+    PairMomentsNow(u8),
+    /// Radiances before of the gradient's pairs; two take turns.
+    PairMomentsBefore(u8),
+    /// Means of new samples and the variance of their difference from the histories, at each level of the pyramid.
     MeansNow(u8),
     /// Means of these histories.
     MeansBefore(u8),
-    /// Numerator and denominator of λ on the stratum's surface, and on any, as bits of f32; two take turns.
+    /// Numerator and denominator of λ on the stratum's surface, and on any surface, as bits of f32; two take turns.
     Gradient(u8),
-    /// What the history is multiplied with, as bits of f32.
+    /// The factor on the history, as bits of f32.
     Ratio,
     /// Sum over frames and their number.
     Sum,
-    /// Sum of the paths' radiances so far, and their rays, where several dispatches trace them; two take turns.
+    /// Sum of the paths' radiances so far, and the number of their rays, if several dispatches trace them; two take turns.
     Paths(u8),
     /// α and λ.
     Weights,
@@ -58,17 +58,17 @@ pub enum Image {
     Reprojected,
     /// The filtered colour with the last one blended in.
     Output,
-    /// The sample of each stratum that is farthest above its level, and what the stratum's other pixels show.
+    /// The sample of each stratum that is farthest above its level, and the light of the stratum's other pixels.
     Candidates,
-    /// How many strata of a row have such a sample, by how far above.
+    /// Number of the strata of a row that have such a sample, by its ratio to its level.
     CandidateCounts,
-    /// What the pixels of a row show.
+    /// Light that the pixels of a row show.
     CandidateSums,
-    /// How far above its level a sample may be in each stratum, and that level where there is no history.
+    /// Greatest ratio of a sample to its level in each stratum, and that level where there is no history.
     OutlierLimit,
 }
 
-/// How many texels an image has, or invocations a pass.
+/// The texels of an image, or the invocations of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Grid {
     /// One per pixel.
@@ -95,13 +95,13 @@ impl Image {
             | Self::Color(_)
             | Self::Reprojected
             | Self::Output
-            | Self::PairNow
-            | Self::PairBefore => TextureFormat::Rg32Uint,
+            | Self::HostPairNow
+            | Self::HostPairBefore => TextureFormat::Rg32Uint,
             Self::Samples
             | Self::Repeats
             | Self::Shifts
-            | Self::PairsNow(_)
-            | Self::PairsBefore(_)
+            | Self::PairMomentsNow(_)
+            | Self::PairMomentsBefore(_)
             | Self::MeansNow(_)
             | Self::MeansBefore(_)
             | Self::Gradient(_)
@@ -122,10 +122,10 @@ impl Image {
             Self::Samples
             | Self::Repeats
             | Self::Shifts
-            | Self::PairNow
-            | Self::PairBefore
-            | Self::PairsNow(_)
-            | Self::PairsBefore(_)
+            | Self::HostPairNow
+            | Self::HostPairBefore
+            | Self::PairMomentsNow(_)
+            | Self::PairMomentsBefore(_)
             | Self::MeansNow(_)
             | Self::MeansBefore(_)
             | Self::Gradient(_)
@@ -138,7 +138,7 @@ impl Image {
         }
     }
 
-    /// Its name, with the number of those that take turns.
+    /// Its name, with its number if it takes turns or has levels.
     pub fn name(self) -> &'static str {
         match self {
             Self::Visibility => "visibility",
@@ -155,12 +155,12 @@ impl Image {
             Self::Samples => "samples",
             Self::Repeats => "repeats",
             Self::Shifts => "shifts",
-            Self::PairNow => "pair now",
-            Self::PairBefore => "pair before",
-            Self::PairsNow(0) => "pairs now 0",
-            Self::PairsNow(_) => "pairs now 1",
-            Self::PairsBefore(0) => "pairs before 0",
-            Self::PairsBefore(_) => "pairs before 1",
+            Self::HostPairNow => "host pair now",
+            Self::HostPairBefore => "host pair before",
+            Self::PairMomentsNow(0) => "pair moments now 0",
+            Self::PairMomentsNow(_) => "pair moments now 1",
+            Self::PairMomentsBefore(0) => "pair moments before 0",
+            Self::PairMomentsBefore(_) => "pair moments before 1",
             Self::MeansNow(level) => MEANS_NOW[usize::from(level) % MEANS_NOW.len()],
             Self::MeansBefore(level) => MEANS_BEFORE[usize::from(level) % MEANS_BEFORE.len()],
             Self::Gradient(0) => "gradient 0",

@@ -1,11 +1,11 @@
-//! What can be compiled into a shader.
+//! The parts of a shader that may be compiled in or left out.
 
 use std::fmt;
 
 /// Declares the enum and the list of all its members.
 macro_rules! features {
     ($($(#[$doc:meta])* $name:ident,)+) => {
-        /// Something that is compiled into a shader or not. The names in WGSL are the same in capitals.
+        /// A part of a shader that is compiled in or left out. Its name in WGSL is the same in capitals.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
         #[non_exhaustive]
@@ -35,11 +35,11 @@ features! {
     Specular,
     /// Test of the opacity and of the facing during traversal.
     AlphaMask,
-    /// Surfaces are met as often as their opacity says.
+    /// Rays meet a surface with the probability of its opacity.
     AlphaBlend,
-    /// Every triangle is tested instead of a tree.
+    /// Rays test every triangle instead of a tree.
     FewTriangles,
-    /// Any light to sample.
+    /// There is light to sample.
     Lights,
     /// Emitting triangles.
     Emitters,
@@ -79,31 +79,32 @@ features! {
     FirstIteration,
     /// The published edge stops.
     ClassicStops,
-    /// 25 taps instead of 13.
+    /// The kernel has 25 taps instead of 13.
     FullKernel,
-    /// Plane instead of mean.
+    /// A plane is fitted to the taps instead of a mean.
     LocalLinearFit,
     /// The plane's ridge follows the noise of its slope.
     RidgeByNoise,
-    /// The nine nearest taps alone.
+    /// The kernel has the nine nearest taps alone.
     SmallKernel,
     /// The last output is blended into this one.
     Steady,
-    /// A sample far brighter than its surroundings is not believed.
+    /// A sample that is far brighter than its surroundings is not believed.
     Outliers,
     /// The target shows the samples as they are.
     Unfiltered,
     /// The target shows the mean over frames.
     Accumulate,
-    /// What is read at many taps is bound as storage: on an adapter that is the CPU, half the cost of a texture fetch.
+    /// Images that are read at many taps are bound as storage, because on an adapter that is the CPU a read costs half as much as a
+    /// texture fetch.
     StorageReads,
     /// The target is rgba16float instead of rgba32float.
     TargetF16,
     /// The target is rgba8unorm and shows a tone-mapped picture.
     TargetPicture,
-    /// What is filtered was divided by an albedo.
+    /// The filtered radiance was divided by an albedo.
     Albedo,
-    /// Where nothing was hit the samples are shown as they are.
+    /// Samples are shown as they are where nothing was hit.
     Background,
     /// Normals are points of the unfolded octahedron.
     OctahedralNormals,
@@ -111,7 +112,7 @@ features! {
     MappedNormals,
     /// Normals come as two 16-bit numbers in one word.
     PackedNormals,
-    /// The host knows the depth that each point had.
+    /// The host gives the depth that each point had in the last frame.
     PreviousDepth,
     /// The host's motion is read where it is needed, instead of a copy.
     HostMotion,
@@ -119,35 +120,35 @@ features! {
     HostLight,
     /// The host's objects have floats for numbers.
     FloatObjects,
-    /// The host's radiance is still multiplied by the albedo and has the emission in it.
+    /// The host's radiance is multiplied by the albedo and contains the emission.
     Modulated,
     /// The gradient comes from pairs that the host made.
     Pairs,
     /// The gradient comes from means of new samples and of their histories.
     Statistics,
-    /// Those pairs are luminances.
+    /// The pairs are luminances.
     LuminancePairs,
-    /// Those pairs come one per stratum.
+    /// There is one pair per stratum.
     StratumPairs,
-    /// The gradient's paths stand in the radiance in the place of their pixels' own.
+    /// The gradient's paths stand in the radiance in place of their pixels' own paths.
     InPlace,
     /// Differences of the gradient keep their sign.
     SignedGradient,
-    /// λ is at least what the paths around saw on any surface.
+    /// λ is at least the λ of the paths around on any surface.
     AcrossSurfaces,
     /// λ is the host's.
     ExternalLambda,
     /// The host gives 1 − λ.
     Confidence,
-    /// Input that has to be cleaned is counted.
+    /// Pixels whose input has to be cleaned are counted.
     Diagnostics,
-    /// Pixels may have no sample: their history goes on, or they are filled from around.
+    /// Pixels may have no sample: their history goes on, or their neighbours fill them.
     MissingSamples,
-    /// Noise may be the same in every frame: neighbours show it where the history does not.
+    /// Noise may be the same in every frame: neighbours show it if the history does not.
     RepeatedNoise,
     /// α and λ are kept for views.
     KeepWeights,
-    /// Paths of earlier dispatches are added to this one's.
+    /// The sum of earlier dispatches' paths is added to this one's.
     EarlierPaths,
     /// Later dispatches trace the other paths.
     LaterPaths,
@@ -171,38 +172,61 @@ impl Feature {
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Features(u128);
 
+/// A shift beyond the last bit would make two features one.
+const _: () = assert!(Feature::ALL.len() <= u128::BITS as usize, "a set has a bit for each feature");
+
 impl Features {
     /// The features of a list.
-    pub fn of(features: &[Feature]) -> Self {
-        features.iter().copied().collect()
+    pub const fn of(features: &[Feature]) -> Self {
+        let (mut set, mut i) = (Self(0), 0);
+        while i < features.len() {
+            set = set.with(features[i]);
+            i += 1;
+        }
+        set
     }
 
-    /// Whether a feature is in the set.
-    pub fn has(self, feature: Feature) -> bool {
+    /// True if the set has this feature.
+    pub const fn has(self, feature: Feature) -> bool {
         self.0 >> feature as u8 & 1 == 1
     }
 
-    /// The set with a feature.
+    /// True if the set has all features of the other.
+    pub const fn has_all(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// True if the set has one of the features of the other.
+    pub const fn has_any(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// True if the set is empty.
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The set with this feature.
     #[must_use]
-    pub fn with(self, feature: Feature) -> Self {
+    pub const fn with(self, feature: Feature) -> Self {
         Self(self.0 | 1 << feature as u8)
     }
 
-    /// The set without a feature.
+    /// The set without this feature.
     #[must_use]
-    pub fn without(self, feature: Feature) -> Self {
+    pub const fn without(self, feature: Feature) -> Self {
         Self(self.0 & !(1 << feature as u8))
     }
 
-    /// What is in both sets.
+    /// The features of both sets.
     #[must_use]
-    pub fn and(self, other: Self) -> Self {
+    pub const fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
-    /// What is in either set.
+    /// The features of either set.
     #[must_use]
-    pub fn or(self, other: Self) -> Self {
+    pub const fn or(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 

@@ -1,0 +1,123 @@
+//! Frames of a path-traced scene.
+
+use super::stepwise::Stepwise;
+use super::{Denoiser, Specialize};
+use crate::camera::{Camera, Viewpoint};
+use crate::frame::{Identity, Inputs, LastFrame, Source};
+use crate::gpu::frame::Moment;
+use crate::passes::Pass;
+use crate::plan::{Batches, Changes, Plan, Traits};
+use crate::scene::GpuScene;
+use crate::settings::{Gradient, Mode};
+use crate::{Error, host};
+use wgpu::{CommandEncoder, Device, TextureFormat, TextureView};
+
+/// One frame of a path-traced scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    /// The scene, in the pose that [`GpuScene::update`] was last given.
+    pub scene: &'a GpuScene,
+    /// The viewpoint.
+    pub camera: Camera,
+    /// Number of the frame. With the pixel it decides all random numbers. It should grow by one per frame: any other step starts a new
+    /// history, in every mode.
+    pub index: u32,
+    /// The view that receives linear radiance: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
+    pub target: &'a TextureView,
+}
+
+impl Denoiser {
+    /// Compiles ahead the shaders that frames of a scene may need with the settings in force, whatever changes from one to the next, so
+    /// that none of them has to wait. `target` is the format of [`Frame::target`]. May take seconds.
+    ///
+    /// # Errors
+    /// [`Error::Shader`], which is a defect of this crate.
+    pub fn prepare(&self, scene: &GpuScene, target: TextureFormat) -> Result<(), Error> {
+        let traits = self.traits(scene);
+        self.every_change().iter().try_for_each(|&changes| {
+            let plan = self.recorder.adapt(Plan::path_traced(&traits, &self.settings, changes, target));
+            self.recorder.compile(&plan.steps, scene.traversal(&traits))
+        })
+    }
+
+    /// Records one frame: traces the scene, filters, and writes linear radiance into the target.
+    ///
+    /// # Errors
+    /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
+    pub fn render(&mut self, device: &Device, encoder: &mut CommandEncoder, frame: &Frame<'_>) -> Result<(), Error> {
+        // No debug group around the frame, only a label on each pass: in debug builds, Mesa 22.3's drivers crash at the
+        // second group of an encoder (gfx-rs/wgpu#3377), and an encoder may hold many frames.
+        self.stepwise(|_, _| {}).render(device, encoder, frame)
+    }
+
+    /// The traits that the shaders are compiled for.
+    fn traits(&self, scene: &GpuScene) -> Traits {
+        let traits = Traits { views: self.recorder.textures.keeps(), ..scene.traits() };
+        match self.specialize {
+            Specialize::Exactly => traits,
+            Specialize::Everything => traits.everything(),
+        }
+    }
+}
+
+impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
+    /// [`Denoiser::render`], pass by pass.
+    ///
+    /// # Errors
+    /// As [`Denoiser::render`].
+    pub fn render(&mut self, device: &Device, encoder: &mut CommandEncoder, frame: &Frame<'_>) -> Result<(), Error> {
+        let denoiser = &mut *self.denoiser;
+        let &Frame { scene, index, target, .. } = frame;
+        let (settings, recorder) = (&denoiser.settings, &denoiser.recorder);
+        let asked = settings.filter.gradient;
+        if settings.mode == Mode::Denoise && matches!(asked, Gradient::Pairs | Gradient::Lambda) {
+            let reason =
+                "comes from a host's renderer: choose Automatic, Reshade, Statistics, BlinnPhong or Off for a scene";
+            return Err(Error::GradientSource { asked, reason });
+        }
+        let format = host::target(target, recorder.size, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
+        let camera = Viewpoint::from(frame.camera).placed(recorder.size)?;
+        let traits = denoiser.traits(scene);
+        let snapshot = scene.snapshot();
+        let (visible, tracer) = (snapshot.visible.clone(), settings.tracer.clone());
+        let identity = Identity { index, camera, source: Source::Scene { number: snapshot.scene, visible, tracer } };
+
+        let planned = |changes| recorder.adapt(Plan::path_traced(&traits, settings, changes, format));
+        let most = planned(Changes::ANY);
+        let last = denoiser.history.continuable().filter(|_| recorder.textures.has_all_before(&most));
+        let known = last.and_then(|last| identity.changes_since(&last.identity, settings.mode));
+        let last = last.filter(|_| known.is_some());
+        let images = most.images();
+        let plan = match denoiser.changes(known) {
+            Changes::ANY => most,
+            changes => planned(changes),
+        };
+        let traversal = scene.traversal(&traits);
+        recorder.compile(&plan.steps, traversal)?;
+
+        let moment = Moment {
+            camera,
+            previous: last.map_or(camera, |last| last.identity.camera),
+            origin: scene.centre(),
+            index,
+            continued: last.is_some(),
+            lambda_block: 1,
+            converges: plan.converges(),
+        };
+        let before = last.and_then(|last| last.snapshot.clone()).unwrap_or_else(|| snapshot.clone());
+        let batches = Batches::of(&traits, &settings.tracer).all();
+        let uniform = recorder.uniform(device, settings, &moment, &batches);
+        denoiser.abandon();
+        let recorder = &mut denoiser.recorder;
+        recorder.textures.begin();
+        recorder.textures.place(device, recorder.size, &plan, (0, plan.steps.len()), images);
+        let scene_resource = |binding| scene.resource(binding).or_else(|| before.resource(binding));
+        let inputs = Inputs { traversal, target: Some(target), scene: &scene_resource, ..Default::default() };
+        let mut recording = recorder.begin(device, index, plan.steps.len(), uniform);
+        recorder.record(device, encoder, &plan.steps, &inputs, &mut recording, &mut self.after)?;
+        let uniform = recorder.end(device, encoder, recording);
+        let snapshot = Some(snapshot.clone());
+        denoiser.history.complete(LastFrame { identity, plan, uniform, light: None, snapshot });
+        Ok(())
+    }
+}

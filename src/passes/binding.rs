@@ -1,0 +1,233 @@
+//! The vocabulary of a pass's bindings: each is declared once, with the name that it has in WGSL.
+
+use super::{Feature, Features, Image, Nth};
+
+/// The image or view behind a binding of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Slot {
+    /// This frame's image.
+    Now(Image),
+    /// The previous frame's image.
+    Before(Image),
+    /// The host's target.
+    Target,
+    /// One of the host's views.
+    Host(HostView),
+}
+
+/// A view that a host hands in: a field of [`Surfaces`](crate::Surfaces) or [`Shading`](crate::Shading).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum HostView {
+    /// [`Surfaces::depth`](crate::Surfaces::depth).
+    Depth,
+    /// [`Surfaces::normal`](crate::Surfaces::normal).
+    Normal,
+    /// [`Surfaces::motion`](crate::Surfaces::motion).
+    Motion,
+    /// [`Surfaces::previous_depth`](crate::Surfaces::previous_depth).
+    PreviousDepth,
+    /// [`Surfaces::instance`](crate::Surfaces::instance).
+    Instance,
+    /// [`Shading::radiance`](crate::Shading::radiance).
+    Radiance,
+    /// [`Shading::albedo`](crate::Shading::albedo).
+    Albedo,
+    /// [`Shading::emission`](crate::Shading::emission).
+    Emission,
+    /// [`Pairs::current`](crate::Pairs::current).
+    PairNow,
+    /// [`Pairs::previous`](crate::Pairs::previous).
+    PairBefore,
+    /// [`Lambda::view`](crate::Lambda::view).
+    Lambda,
+}
+
+impl HostView {
+    /// Its name in plans: `previous depth`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Depth => "depth",
+            Self::Normal => "normal",
+            Self::Motion => "motion",
+            Self::PreviousDepth => "previous depth",
+            Self::Instance => "instance",
+            Self::Radiance => "radiance",
+            Self::Albedo => "albedo",
+            Self::Emission => "emission",
+            Self::PairNow => "pair now",
+            Self::PairBefore => "pair before",
+            Self::Lambda => "lambda",
+        }
+    }
+}
+
+/// One binding of a step: its name in WGSL, the image behind it, and the direction of the data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub struct Bound {
+    /// Name of the variable in WGSL.
+    pub name: &'static str,
+    /// The image behind it.
+    pub slot: Slot,
+    /// True if the shader writes it, false if the shader reads it.
+    pub written: bool,
+}
+
+/// A binding as a pass declares it: present in a step if the step has all of its features and none of the excluding ones.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Binding {
+    name: &'static str,
+    source: Source,
+    written: bool,
+    /// The host's own view takes the image's place if the step has this feature.
+    host: Option<(Feature, HostView)>,
+    all: Features,
+    /// At least one of these, unless the set is empty.
+    any: Features,
+    none: Features,
+    /// The shader reads it as a storage texture if it has [`Feature::StorageReads`].
+    storage: bool,
+}
+
+/// Where a step finds the image of a binding.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Now(Image),
+    Before(Image),
+    /// One of two images that take turns: that of the step's turn, or the other.
+    Turn(fn(u8) -> Image, u32),
+    /// An image of the step's level of a pyramid, or so many levels above.
+    Level(fn(u8) -> Image, u32),
+    /// The image that the plan names, because an earlier pass left its result there.
+    Chosen,
+    Host(HostView),
+    Target,
+}
+
+/// Reads this frame's image.
+pub(super) const fn now(name: &'static str, image: Image) -> Binding {
+    Binding::new(name, Source::Now(image), false)
+}
+
+/// Reads the previous frame's image.
+pub(super) const fn before(name: &'static str, image: Image) -> Binding {
+    Binding::new(name, Source::Before(image), false)
+}
+
+/// Writes this frame's image.
+pub(super) const fn out(name: &'static str, image: Image) -> Binding {
+    Binding::new(name, Source::Now(image), true)
+}
+
+/// Reads, of two images that take turns, that of the step's turn.
+pub(super) const fn turn(name: &'static str, images: fn(u8) -> Image) -> Binding {
+    Binding::new(name, Source::Turn(images, 0), false)
+}
+
+/// Reads the other image.
+pub(super) const fn other_turn(name: &'static str, images: fn(u8) -> Image) -> Binding {
+    Binding::new(name, Source::Turn(images, 1), false)
+}
+
+/// Writes the image of the step's turn.
+pub(super) const fn turn_out(name: &'static str, images: fn(u8) -> Image) -> Binding {
+    Binding::new(name, Source::Turn(images, 0), true)
+}
+
+/// Writes the other image, which the next turn reads.
+pub(super) const fn next_turn_out(name: &'static str, images: fn(u8) -> Image) -> Binding {
+    Binding::new(name, Source::Turn(images, 1), true)
+}
+
+/// Reads the image of the step's level.
+pub(super) const fn level(name: &'static str, images: fn(u8) -> Image) -> Binding {
+    Binding::new(name, Source::Level(images, 0), false)
+}
+
+/// Writes the image of the next coarser level.
+pub(super) const fn next_level_out(name: &'static str, images: fn(u8) -> Image) -> Binding {
+    Binding::new(name, Source::Level(images, 1), true)
+}
+
+/// Reads the image that the plan names.
+pub(super) const fn chosen(name: &'static str) -> Binding {
+    Binding::new(name, Source::Chosen, false)
+}
+
+/// Reads a view of the host.
+pub(super) const fn host(name: &'static str, view: HostView) -> Binding {
+    Binding::new(name, Source::Host(view), false)
+}
+
+/// Writes the host's target.
+pub(super) const fn target(name: &'static str) -> Binding {
+    Binding::new(name, Source::Target, true)
+}
+
+impl Binding {
+    const fn new(name: &'static str, source: Source, written: bool) -> Self {
+        let none = Features::of(&[]);
+        Self { name, source, written, host: None, all: none, any: none, none, storage: false }
+    }
+
+    /// Bound if the step has this feature.
+    pub(super) const fn with(self, feature: Feature) -> Self {
+        Self { all: self.all.with(feature), ..self }
+    }
+
+    /// Bound if the step has one of these features.
+    pub(super) const fn with_any(self, features: &[Feature]) -> Self {
+        Self { any: Features::of(features), ..self }
+    }
+
+    /// Bound if the step lacks this feature.
+    pub(super) const fn unless(self, feature: Feature) -> Self {
+        Self { none: self.none.with(feature), ..self }
+    }
+
+    /// With this feature, the host's own view is read instead of a copy.
+    pub(super) const fn or_host(self, feature: Feature, view: HostView) -> Self {
+        Self { host: Some((feature, view)), ..self }
+    }
+
+    /// Read at so many taps that an adapter that is the CPU reads it as storage, see [`Feature::StorageReads`].
+    pub(super) const fn at_many_taps(self) -> Self {
+        Self { storage: true, ..self }
+    }
+
+    /// True if a step with these features has this binding.
+    pub(super) fn is_bound(&self, features: Features) -> bool {
+        features.has_all(self.all)
+            && (self.any.is_empty() || features.has_any(self.any))
+            && !features.has_any(self.none)
+    }
+
+    /// True if the step may read it as a storage texture.
+    pub(super) fn is_storage(&self) -> bool {
+        self.storage
+    }
+
+    /// True if the shader writes it.
+    pub(super) fn is_written(&self) -> bool {
+        self.written
+    }
+
+    /// The binding of a step with these features.
+    pub(super) fn resolve(&self, features: Features, nth: Nth) -> Bound {
+        let take_turns = |offset: u32| ((nth.turn + offset) % 2) as u8;
+        let slot = match (self.host, self.source) {
+            (Some((feature, view)), _) if features.has(feature) => Slot::Host(view),
+            (_, Source::Now(image)) => Slot::Now(image),
+            (_, Source::Before(image)) => Slot::Before(image),
+            (_, Source::Turn(images, offset)) => Slot::Now(images(take_turns(offset))),
+            (_, Source::Level(images, offset)) => Slot::Now(images((nth.iteration + offset) as u8)),
+            // A plan that runs the pass has named the image; the first turn stands for it in a declaration alone.
+            (_, Source::Chosen) => Slot::Now(nth.image.unwrap_or(Image::Color(0))),
+            (_, Source::Host(view)) => Slot::Host(view),
+            (_, Source::Target) => Slot::Target,
+        };
+        Bound { name: self.name, slot, written: self.written }
+    }
+}

@@ -1,0 +1,58 @@
+//! Lists of features and bindings that several passes share, because their shaders import the same module of shaders/shared/.
+
+use super::prelude::*;
+
+/// The features of shaders that follow rays through the scene, or read what the rays have hit.
+#[cfg(feature = "path-tracer")]
+pub(super) const GEOMETRY: &[Known] = &[
+    knows(Instanced),
+    knows(Textures),
+    knows(FoldedImages),
+    knows(ShadingNormals),
+    knows(VertexColors),
+    knows(AlphaMask),
+    knows(AlphaBlend),
+    knows(FewTriangles),
+];
+
+/// The features of shaders that read a host's motion and light themselves, or their copies: host_motion.wgsl, host_light.wgsl.
+pub(super) const HOST_INPUT: &[Known] = &[
+    knows(HostMotion).unless(Still),
+    knows(PreviousDepth).with(HostMotion).unless(Still),
+    knows(HostLight),
+    knows(Modulated).with(HostLight),
+    knows(Albedo).with(HostLight).with(Modulated),
+    knows(DirectEmission).with(HostLight).with(Modulated),
+];
+
+/// A pixel's sample, the place where its surface was, and what the last frame left: sample.wgsl, history_taps.wgsl.
+pub(super) const SAMPLE_AND_HISTORY: &[Binding] = &[
+    now("guide", Image::Guide),
+    now("radiance", Image::Radiance).or_host(HostLight, HostView::Radiance),
+    host("albedo", HostView::Albedo).with(Albedo),
+    host("emission", HostView::Emission).with(DirectEmission),
+    now("motion", Image::Motion).or_host(HostMotion, HostView::Motion).unless(Still),
+    host("previous_depth", HostView::PreviousDepth).with(PreviousDepth).unless(Still),
+    before("history_previous", Image::History).at_many_taps(),
+    before("feedback_previous", Image::Feedback).with(Feedback),
+    before("output_previous", Image::Output).with(Steady),
+];
+
+/// The images that tell whether the last frame shows the same surface there: reproject.wgsl.
+pub(super) const SAME_SURFACE: &[Binding] = &[
+    before("guide_previous", Image::Guide).at_many_taps().unless(Still),
+    now("object", Image::Object).with(Objects).unless(Still),
+    before("object_previous", Image::Object).with(Objects).unless(Still),
+];
+
+/// The two radiances of a stratum's path, in the images of two frames or in those of the host's pairs, and whether they are
+/// believed: pair_taps.wgsl. Analytic shading has no paths.
+pub(super) const PAIR_TAPS: &[Binding] = &[
+    now("samples", Image::Samples),
+    now("radiance", Image::Radiance).unless(Pairs).unless(BlinnPhong),
+    now("radiance", Image::HostPairNow).with(Pairs).unless(BlinnPhong),
+    before("radiance_previous", Image::Radiance).unless(Pairs).unless(BlinnPhong),
+    now("radiance_previous", Image::HostPairBefore).with(Pairs).unless(BlinnPhong),
+    now("limit", Image::OutlierLimit).with(Outliers),
+    before("history_previous", Image::History).with(Outliers),
+];
