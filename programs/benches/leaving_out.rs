@@ -38,7 +38,7 @@ fn cases() -> Vec<Case> {
     let exactly = Specialize::Exactly;
     vec![
         case("everything compiled in", Specialize::Everything, filter(), "move-light"),
-        case("what the scene has", exactly, filter(), "move-light"),
+        case("only the scene's features", exactly, filter(), "move-light"),
         case("… only the camera moves", exactly, filter(), "move-camera"),
         case("… nothing changes", exactly, filter(), "static"),
         case("… constant α", exactly, constant, "move-light"),
