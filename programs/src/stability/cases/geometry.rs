@@ -40,9 +40,11 @@ pub const CASES: &[Case] = &[
         varied: "a floor and a wall 8 km, 33 km and 524 km away, by their vertices, by nodes, and by nodes that a host may move",
         quantity: "relative difference of the image's mean from that at the origin",
         bound: 1e-3,
-        origin: "coordinates count from the scene's centre, so the numbers are the same; 1 %, 4.6 % and 12.6 % before",
+        origin: "coordinates count from the scene's centre, so the numbers are the same; the errors were 1 %, 4.6 % and 12.6 % before",
         measure: far_corner,
-        breaks: Breaks::Known("far from the middle of its own scene a surface is as in “a corner in a large scene”"),
+        breaks: Breaks::Known(
+            "a surface far from the middle of its own scene has the errors of “a corner in a large scene”",
+        ),
     },
     Case {
         name: "a corner in a large scene",
@@ -60,16 +62,16 @@ pub const CASES: &[Case] = &[
         bound: ROUNDING,
         origin: ORIGIN,
         measure: bodies_in_large_scene,
-        breaks: Breaks::Known("where a body is as small as a few steps of f32 there, its shape is lost"),
+        breaks: Breaks::Known("a body as small as a few steps of f32 at its place loses its shape"),
     },
     Case {
         name: "within a solid in a large scene",
         varied: "a closed box of 12 triangles and a ball of 720 round the eye, 10 … 10⁴ times their size from the scene's centre",
-        quantity: "light that leaks in, in parts of the sky's",
+        quantity: "light that leaks in, over the sky's",
         bound: 0.0,
-        origin: "no ray leaves a closed surface, not by an edge or a vertex either",
+        origin: "no ray leaves a closed surface, not even through an edge or a vertex",
         measure: enclosed_in_large_scene,
-        breaks: Breaks::Known("where a body is as small as a few steps of f32 there, its shape is lost"),
+        breaks: Breaks::Known("a body as small as a few steps of f32 at its place loses its shape"),
     },
     Case {
         name: "range of depths",
@@ -78,7 +80,7 @@ pub const CASES: &[Case] = &[
         bound: ROUNDING,
         origin: ORIGIN,
         measure: depths,
-        breaks: Breaks::Known("a host's depths: 10⁻¹⁸ … 10¹⁸, else a miss"),
+        breaks: Breaks::Known("a host's depth outside 10⁻¹⁸ … 10¹⁸ is a miss"),
     },
     Case {
         name: "grazing angles",
@@ -105,7 +107,7 @@ pub const CASES: &[Case] = &[
         bound: ROUNDING,
         origin: ORIGIN,
         measure: degenerate,
-        breaks: Breaks::Known("needles whose area is no normal number (below 10⁻¹⁹ a side) are not seen"),
+        breaks: Breaks::Known("needles whose area is a denormal number (below 10⁻¹⁹ a side) are not seen"),
     },
     Case {
         name: "few and many triangles",
@@ -114,7 +116,7 @@ pub const CASES: &[Case] = &[
         bound: ROUNDING,
         origin: ORIGIN,
         measure: counts,
-        breaks: Breaks::Known("none: 10⁶ at one point make a tree too, see the tests of `src/scene/gpu/tree/build.rs`"),
+        breaks: Breaks::Known("none: 10⁶ triangles at one point make a tree too, see the tests of `src/scene/gpu/tree/build.rs`"),
     },
     Case {
         name: "eyes and rays in awkward places",
@@ -128,9 +130,9 @@ pub const CASES: &[Case] = &[
     Case {
         name: "the eye within a solid",
         varied: "a closed box of 12 triangles and a ball of 720 round the eye, sizes 10⁻⁵ … 10⁷; its middle, near a wall, in a corner",
-        quantity: "pixels that see the sky, and light that leaks in, in parts of the sky's",
+        quantity: "pixels that see the sky, and light that leaks in, over the sky's",
         bound: 0.0,
-        origin: "no ray leaves a closed surface, not by an edge or a vertex either",
+        origin: "no ray leaves a closed surface, not even through an edge or a vertex",
         measure: enclosed,
         breaks: Breaks::Never("triangles reach over their edges, and paths start within them"),
     },
@@ -139,7 +141,7 @@ pub const CASES: &[Case] = &[
         varied: "400 cards of 1, 0.3 and 0.1 pixels before the sky; each frame with another jitter",
         quantity: QUANTITY,
         bound: ROUNDING,
-        origin: "all that is lit is lit alike, whichever taps are taken",
+        origin: "all lit surfaces are lit alike, so the choice of taps must not matter",
         measure: sub_pixel,
         breaks: Breaks::Never("weights are normalised"),
     },
@@ -151,7 +153,7 @@ pub const CASES: &[Case] = &[
         origin: ORIGIN,
         measure: fields_of_view,
         breaks: Breaks::Known(
-            "at π − 10⁻⁵ surfaces are met 10⁶ times as far as the eye is from their plane, and rounding takes their depth; 0 and π are refused by name",
+            "at π − 10⁻⁵, rays meet surfaces 10⁶ times as far away as the eye is from their plane, and rounding destroys the depth; 0 and π are refused by name",
         ),
     },
 ];

@@ -26,7 +26,7 @@ pub const CASES: &[Case] = &[
         varied: "radiance 10⁻⁸ … 10⁸ from left to right",
         quantity: "largest relative error",
         bound: ROUNDING,
-        origin: "nothing varies in time, so nothing may be mixed; rounding of the filter's taps",
+        origin: "nothing varies in time, so nothing may be mixed; the taps of the filter are rounded",
         measure: decades,
         breaks: Breaks::Found(decades_break),
     },
@@ -44,7 +44,7 @@ pub const CASES: &[Case] = &[
         varied: "radiance 1, 300 (its square is above f16's largest number), 10⁴, 10⁵, 10⁶, 10⁸ with noise",
         quantity: "largest relative bias of the mean over 32 frames",
         bound: 0.01,
-        origin: "against the same samples, so that only bias is left",
+        origin: "the comparison is with the same samples, so only bias is left",
         measure: bright,
         breaks: Breaks::Known("from 2³³ ≈ 8.6·10⁹ (before the albedo) on the taps of the spatial filter are full"),
     },
@@ -53,7 +53,7 @@ pub const CASES: &[Case] = &[
         varied: "radiance 0, 10⁻⁴⁵ (denormal), 10⁻⁴⁰, 10⁻³⁸, 10⁻³⁰, 10⁻²⁰",
         quantity: "largest output over input, less 1; or λ",
         bound: ROUNDING,
-        origin: "what is too dark to be stored becomes 0, and is no change",
+        origin: "radiance that is too dark to be stored becomes 0, and is no change",
         measure: dark,
         breaks: Breaks::Known("below 2⁻³¹ ≈ 5·10⁻¹⁰ (before the albedo) the taps of the spatial filter are 0"),
     },
@@ -62,9 +62,9 @@ pub const CASES: &[Case] = &[
         varied: "one pixel of 1, 10³, 10⁶, steady, in the dark; its place",
         quantity: "largest relative error of the sum over all pixels",
         bound: ROUNDING,
-        origin: "it does not vary, so it is signal and must stay",
+        origin: "the pixel does not vary, so it is signal and must stay",
         measure: one_pixel,
-        breaks: Breaks::Never("the stops compare with noise, of which there is none"),
+        breaks: Breaks::Never("the stops compare with the noise, and there is none"),
     },
     Case {
         name: "fireflies",
@@ -80,14 +80,14 @@ pub const CASES: &[Case] = &[
         varied: "a light that goes from 10⁻³⁰, 10⁻²⁵, 10⁻²⁰, 10⁻¹² to 1 and 10⁸ in one frame",
         quantity: "largest relative error of a pixel in that frame and the next three",
         bound: ROUNDING,
-        origin: "what was is worth nothing then; the ratio's square would be infinite, and ∞ − ∞ its variance",
+        origin: "the old history is worth nothing; the ratio's square would be infinite, and its variance ∞ − ∞",
         measure: next_to_nothing,
         breaks: Breaks::Never("beyond 10⁶ no ratio is computed"),
     },
     Case {
         name: "as bright as numbers go",
         varied: "10¹⁰ … 3.4·10³⁸ in one frame of a steady image: in one pixel, in a block, everywhere",
-        quantity: "pixels that are not finite then or in the eight frames after, of the image or of the history",
+        quantity: "pixels of the image or the history that are not finite, in that frame or in the eight after",
         bound: 0.0,
         origin: "a history that is not finite would be so for ever",
         measure: huge,
@@ -211,8 +211,8 @@ fn sun_break() -> String {
     let first = (2..=10).map(|n| 0.1 * f64::from(n)).find(|&noise| beside_the_sun(1e6, noise, 8) > 0.03);
     let noise = first.map_or("none up to ±100 %".into(), |noise| format!("±{:.0} %", 100.0 * noise));
     format!(
-        "noise of a sun of 10⁶: {noise}, as a noisy tap may be mixed until some ten frames tell. From the first frame on the error is \
-         {cold:.1e}: variances of the first three frames are those of 7×7 neighbours, the sun among them"
+        "noise of a sun of 10⁶: {noise}, because a noisy tap may be mixed in for some ten frames. From the first frame on, the error is \
+         {cold:.1e}, because the variances of the first three frames are those of 7×7 neighbours, among them the sun"
     )
 }
 
@@ -271,7 +271,7 @@ fn fireflies_lost() -> String {
         let [found, given] = with_fireflies(power);
         format!("{:.0} % at 10^{power}", 100.0 * (1.0 - found / given))
     };
-    format!("what is lost: {}", (2..=5).map(lost).collect::<Vec<_>>().join(", "))
+    format!("lost energy: {}", (2..=5).map(lost).collect::<Vec<_>>().join(", "))
 }
 
 fn next_to_nothing() -> Worst {
