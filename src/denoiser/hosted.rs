@@ -3,11 +3,11 @@
 use super::Denoiser;
 use super::stepwise::Stepwise;
 use crate::Error;
-use crate::frame::{Begun, Identity, Inputs, LastFrame, Light, Motion, Source};
+use crate::frame::{Begun, Identity, LastFrame, Light, Motion, Resources, Source};
 use crate::gpu::frame::Moment;
 use crate::host::{self, Lambda, Reshade, Shading, Surfaces};
 use crate::passes::{Feature, HostView, Image, Pass, Slot, Traversal};
-use crate::plan::{Changes, HostTraits, Plan};
+use crate::plan::{Changes, HostInputs, Plan};
 use crate::settings::{Gradient, Mode};
 use wgpu::{CommandEncoder, Device, TextureFormat};
 
@@ -61,20 +61,20 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         }
         let camera = surfaces.camera.placed(recorder.size)?;
         let (diagnostics, views) = (recorder.counters.is_some(), recorder.textures.keeps());
-        let mut traits = HostTraits { diagnostics, views, ..Default::default() };
-        host::surfaces(&mut traits, surfaces, recorder.size)?;
+        let mut inputs = HostInputs { diagnostics, views, ..Default::default() };
+        host::surfaces(&mut inputs, surfaces, recorder.size)?;
         let index = surfaces.index;
         let identity = Identity { index, camera, source: Source::Host };
 
         // The light's views change neither this half nor which of its images outlive the frame.
         let most_bits = TextureFormat::Rgba32Float;
-        let planned = |traits: &HostTraits, changes| Plan::hosted(traits, settings, changes, most_bits);
-        let most = recorder.adapt(planned(&traits, Changes::ANY));
+        let planned = |inputs: &HostInputs, changes| Plan::hosted(inputs, settings, changes, most_bits);
+        let most = recorder.adapt(planned(&inputs, Changes::ANY));
         let kept = denoiser.history.continuable().filter(|_| recorder.textures.has_all_before(&most));
         let known = kept.and_then(|last| identity.changes_since(&last.identity, settings.mode));
         let last = kept.filter(|_| known.is_some());
         let changes = denoiser.changes(known.map(|found| found.or(surfaces.changes)));
-        let plan = recorder.adapt(planned(&traits, changes));
+        let plan = recorder.adapt(planned(&inputs, changes));
         let steps = &plan.steps[..plan.surface_steps()];
         recorder.compile(steps, Traversal::default())?;
 
@@ -90,7 +90,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         let uniform = recorder.uniform(device, settings, &moment, &[]);
         // If the light comes in the target's texture, it is copied; pairs may come or not: no frame has more passes.
         let passes = [false, true].map(|pairs| {
-            let copied = HostTraits { in_target: true, pairs, ..traits };
+            let copied = HostInputs { in_target: true, pairs, ..inputs };
             planned(&copied, changes).steps.len()
         });
         let mut recording = recorder.begin(device, index, passes[0].max(passes[1]), uniform);
@@ -99,8 +99,8 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         let recorder = &mut denoiser.recorder;
         recorder.textures.begin();
         recorder.textures.place(device, recorder.size, &plan, (0, steps.len()), most.images());
-        let inputs = Inputs { host: &|view| surfaces.view(view), ..Default::default() };
-        recorder.record(device, encoder, steps, &inputs, &mut recording, &mut self.after)?;
+        let resources = Resources { host: &|view| surfaces.view(view), ..Default::default() };
+        recorder.record(device, encoder, steps, &resources, &mut recording, &mut self.after)?;
 
         let image = |image| recorder.textures.view(Slot::Now(image)).cloned();
         let reshade = match (image(Image::Guide), image(Image::Repeats), image(Image::Shifts)) {
@@ -110,7 +110,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
             _ => None,
         };
         let motion = Motion { motion: surfaces.motion.clone(), previous_depth: surfaces.previous_depth.cloned() };
-        denoiser.history.begin(Begun { identity, moment, changes, traits, motion, recording }, continued);
+        denoiser.history.begin(Begun { identity, moment, changes, inputs, motion, recording }, continued);
         Ok(reshade)
     }
 
@@ -129,17 +129,17 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         let begun = denoiser.history.begun().ok_or(Error::NotBegun)?;
         let accepted = [TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
         let format = host::target(shading.target, recorder.size, &accepted)?;
-        let (mut traits, changes) = (begun.traits, begun.changes);
-        host::shading(&mut traits, shading, recorder.size, (settings, changes))?;
-        let planned = |changes| Plan::hosted(&traits, settings, changes, format);
+        let (mut inputs, changes) = (begun.inputs, begun.changes);
+        host::shading(&mut inputs, shading, recorder.size, (settings, changes))?;
+        let planned = |changes| Plan::hosted(&inputs, settings, changes, format);
         let plan = recorder.adapt(planned(changes));
         let images = planned(Changes::ANY).images();
         let from = plan.surface_steps();
         recorder.compile(&plan.steps[from..], Traversal::default())?;
 
         let light = Light {
-            textures: !traits.albedo && !traits.demodulated,
-            emission: !traits.emission && !traits.demodulated,
+            textures: !inputs.albedo && !inputs.demodulated,
+            emission: !inputs.emission && !inputs.demodulated,
         };
         let Some(begun) = denoiser.history.take_begun() else { return Err(Error::NotBegun) };
         let Begun { identity, mut moment, motion, mut recording, .. } = begun;
@@ -159,8 +159,8 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
             HostView::PreviousDepth => motion.previous_depth.as_ref(),
             _ => shading.view(view),
         };
-        let inputs = Inputs { host: &view, target: Some(shading.target), ..Default::default() };
-        recorder.record(device, encoder, &plan.steps[from..], &inputs, &mut recording, &mut self.after)?;
+        let resources = Resources { host: &view, target: Some(shading.target), ..Default::default() };
+        recorder.record(device, encoder, &plan.steps[from..], &resources, &mut recording, &mut self.after)?;
         let uniform = recorder.end(device, encoder, recording);
         denoiser.history.complete(LastFrame {
             identity,

@@ -16,7 +16,7 @@ use crate::gpu::counts::{Counters, InputCounts};
 use crate::gpu::pipelines::Pipelines;
 use crate::gpu::textures::Textures;
 use crate::gpu::timing::{FrameTimes, Timing};
-use crate::plan::{Changes, Decision, HostTraits, Plan, Traversal};
+use crate::plan::{Changes, Decision, HostInputs, Plan, Traversal};
 use crate::settings::Settings;
 use wgpu::{Device, Features, Limits, Queue, TextureFormat};
 
@@ -121,15 +121,15 @@ impl Denoiser {
         })
     }
 
-    /// Compiles ahead what a host's frames may need, so that none of them has to wait: `traits` describes its views, and `target` is the
+    /// Compiles ahead what a host's frames may need, so that none of them has to wait: `inputs` describes its views, and `target` is the
     /// format of [`Shading::target`](crate::Shading::target). May take seconds.
     ///
     /// # Errors
     /// [`Error::Shader`], which is a defect of this crate.
-    pub fn prepare_hosted(&self, traits: &HostTraits, target: TextureFormat) -> Result<(), Error> {
-        let traits = HostTraits { views: self.recorder.textures.keeps(), ..*traits };
+    pub fn prepare_hosted(&self, inputs: &HostInputs, target: TextureFormat) -> Result<(), Error> {
+        let inputs = HostInputs { views: self.recorder.textures.keeps(), ..*inputs };
         self.every_change().iter().try_for_each(|&changes| {
-            let plan = self.recorder.adapt(Plan::hosted(&traits, &self.settings, changes, target));
+            let plan = self.recorder.adapt(Plan::hosted(&inputs, &self.settings, changes, target));
             self.recorder.compile(&plan.steps, Traversal::default())
         })
     }

@@ -1,7 +1,7 @@
 //! Intermediate images of the last frame, shown.
 
 use super::Denoiser;
-use crate::frame::Inputs;
+use crate::frame::Resources;
 use crate::gpu::filled::filled;
 use crate::plan::Traversal;
 use crate::{Error, View, ViewOptions, host};
@@ -35,7 +35,7 @@ impl Denoiser {
         recorder.compile(std::slice::from_ref(&step), Traversal::default())?;
         let numbers = [options.exposure, options.range, 0.0, 0.0];
         let show = filled(device, "asvgf view", bytemuck::cast_slice(&numbers), BufferUsages::UNIFORM);
-        let inputs = Inputs { target: Some(target), show: Some(&show), ..Default::default() };
-        recorder.show(device, encoder, &step, &inputs, &last.uniform)
+        let resources = Resources { target: Some(target), show: Some(&show), ..Default::default() };
+        recorder.show(device, encoder, &step, &resources, &last.uniform)
     }
 }

@@ -3,10 +3,10 @@
 use super::stepwise::Stepwise;
 use super::{Denoiser, Specialize};
 use crate::camera::{Camera, Viewpoint};
-use crate::frame::{Identity, Inputs, LastFrame, Source};
+use crate::frame::{Identity, LastFrame, Resources, Source};
 use crate::gpu::frame::Moment;
 use crate::passes::Pass;
-use crate::plan::{Batches, Changes, Plan, Traits};
+use crate::plan::{Batches, Changes, Plan, SceneContents};
 use crate::scene::GpuScene;
 use crate::settings::{Gradient, Mode};
 use crate::{Error, host};
@@ -33,10 +33,10 @@ impl Denoiser {
     /// # Errors
     /// [`Error::Shader`], which is a defect of this crate.
     pub fn prepare(&self, scene: &GpuScene, target: TextureFormat) -> Result<(), Error> {
-        let traits = self.traits(scene);
+        let contents = self.contents(scene);
         self.every_change().iter().try_for_each(|&changes| {
-            let plan = self.recorder.adapt(Plan::path_traced(&traits, &self.settings, changes, target));
-            self.recorder.compile(&plan.steps, scene.traversal(&traits))
+            let plan = self.recorder.adapt(Plan::path_traced(&contents, &self.settings, changes, target));
+            self.recorder.compile(&plan.steps, scene.traversal(&contents))
         })
     }
 
@@ -50,12 +50,12 @@ impl Denoiser {
         self.stepwise(|_, _| {}).render(device, encoder, frame)
     }
 
-    /// The traits that the shaders are compiled for.
-    fn traits(&self, scene: &GpuScene) -> Traits {
-        let traits = Traits { views: self.recorder.textures.keeps(), ..scene.traits() };
+    /// The contents that the shaders are compiled for.
+    fn contents(&self, scene: &GpuScene) -> SceneContents {
+        let contents = SceneContents { views: self.recorder.textures.keeps(), ..scene.contents() };
         match self.specialize {
-            Specialize::Exactly => traits,
-            Specialize::Everything => traits.everything(),
+            Specialize::Exactly => contents,
+            Specialize::Everything => contents.everything(),
         }
     }
 }
@@ -77,12 +77,12 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         }
         let format = host::target(target, recorder.size, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let camera = Viewpoint::from(frame.camera).placed(recorder.size)?;
-        let traits = denoiser.traits(scene);
+        let contents = denoiser.contents(scene);
         let snapshot = scene.snapshot();
         let (visible, tracer) = (snapshot.visible.clone(), settings.tracer.clone());
         let identity = Identity { index, camera, source: Source::Scene { number: snapshot.scene, visible, tracer } };
 
-        let planned = |changes| recorder.adapt(Plan::path_traced(&traits, settings, changes, format));
+        let planned = |changes| recorder.adapt(Plan::path_traced(&contents, settings, changes, format));
         let most = planned(Changes::ANY);
         let last = denoiser.history.continuable().filter(|_| recorder.textures.has_all_before(&most));
         let known = last.and_then(|last| identity.changes_since(&last.identity, settings.mode));
@@ -92,7 +92,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
             Changes::ANY => most,
             changes => planned(changes),
         };
-        let traversal = scene.traversal(&traits);
+        let traversal = scene.traversal(&contents);
         recorder.compile(&plan.steps, traversal)?;
 
         let moment = Moment {
@@ -105,16 +105,16 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
             converges: plan.converges(),
         };
         let before = last.and_then(|last| last.snapshot.clone()).unwrap_or_else(|| snapshot.clone());
-        let batches = Batches::of(&traits, &settings.tracer).all();
+        let batches = Batches::of(&contents, &settings.tracer).all();
         let uniform = recorder.uniform(device, settings, &moment, &batches);
         denoiser.abandon();
         let recorder = &mut denoiser.recorder;
         recorder.textures.begin();
         recorder.textures.place(device, recorder.size, &plan, (0, plan.steps.len()), images);
         let scene_resource = |binding| scene.resource(binding).or_else(|| before.resource(binding));
-        let inputs = Inputs { traversal, target: Some(target), scene: &scene_resource, ..Default::default() };
+        let resources = Resources { traversal, target: Some(target), scene: &scene_resource, ..Default::default() };
         let mut recording = recorder.begin(device, index, plan.steps.len(), uniform);
-        recorder.record(device, encoder, &plan.steps, &inputs, &mut recording, &mut self.after)?;
+        recorder.record(device, encoder, &plan.steps, &resources, &mut recording, &mut self.after)?;
         let uniform = recorder.end(device, encoder, recording);
         let snapshot = Some(snapshot.clone());
         denoiser.history.complete(LastFrame { identity, plan, uniform, light: None, snapshot });

@@ -3,7 +3,7 @@
 use super::Recording;
 use crate::camera::PlacedCamera;
 use crate::gpu::frame::Moment;
-use crate::plan::{Changes, HostTraits, Plan};
+use crate::plan::{Changes, HostInputs, Plan};
 use crate::settings::Mode;
 #[cfg(feature = "path-tracer")]
 use crate::{
@@ -53,7 +53,7 @@ pub(crate) struct Begun {
     pub identity: Identity,
     pub moment: Moment,
     pub changes: Changes,
-    pub traits: HostTraits,
+    pub inputs: HostInputs,
     pub motion: Motion,
     pub recording: Recording,
 }

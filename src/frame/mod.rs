@@ -7,4 +7,4 @@ mod history;
 mod recorder;
 
 pub(crate) use history::{Begun, History, Identity, LastFrame, Light, Motion, Source};
-pub(crate) use recorder::{Inputs, Recorder, Recording};
+pub(crate) use recorder::{Recorder, Recording, Resources};

@@ -48,7 +48,7 @@ pub(crate) struct Recording {
 }
 
 /// The resources of a frame that are not the denoiser's own.
-pub(crate) struct Inputs<'a> {
+pub(crate) struct Resources<'a> {
     pub host: &'a dyn Fn(HostView) -> Option<&'a TextureView>,
     #[cfg(feature = "path-tracer")]
     pub scene: &'a dyn Fn(SceneBinding) -> Option<BindingResource<'a>>,
@@ -58,7 +58,7 @@ pub(crate) struct Inputs<'a> {
     pub show: Option<&'a Buffer>,
 }
 
-impl Default for Inputs<'_> {
+impl Default for Resources<'_> {
     fn default() -> Self {
         Self {
             host: &|_| None,
@@ -123,14 +123,14 @@ impl Recorder {
         device: &Device,
         encoder: &mut CommandEncoder,
         steps: &[Step],
-        inputs: &Inputs<'a>,
+        resources: &Resources<'a>,
         recording: &'a mut Recording,
         after: &mut impl FnMut(&Pass, &mut CommandEncoder),
     ) -> Result<(), Error> {
         let Recording { uniform, counts, queries, .. } = recording;
         for step in steps {
             let timestamps = queries.as_mut().and_then(|queries| queries.next(step.pass.name()));
-            self.dispatch(device, encoder, step, inputs, (uniform, counts.as_ref()), timestamps)?;
+            self.dispatch(device, encoder, step, resources, (uniform, counts.as_ref()), timestamps)?;
             after(step.pass, encoder);
         }
         Ok(())
@@ -142,10 +142,10 @@ impl Recorder {
         device: &Device,
         encoder: &mut CommandEncoder,
         step: &Step,
-        inputs: &Inputs<'a>,
+        resources: &Resources<'a>,
         uniform: &'a Buffer,
     ) -> Result<(), Error> {
-        self.dispatch(device, encoder, step, inputs, (uniform, None), None)
+        self.dispatch(device, encoder, step, resources, (uniform, None), None)
     }
 
     /// Ends a frame: its times and counts come back once the host has submitted it.
@@ -165,17 +165,18 @@ impl Recorder {
         device: &Device,
         encoder: &mut CommandEncoder,
         step: &Step,
-        inputs: &Inputs<'a>,
+        resources: &Resources<'a>,
         frame: (&'a Buffer, Option<&'a Buffer>),
         timestamp_writes: Option<ComputePassTimestampWrites<'_>>,
     ) -> Result<(), Error> {
-        let kernel = self.pipelines.kernel(step, inputs.traversal)?;
+        let kernel = self.pipelines.kernel(step, resources.traversal)?;
         let missing = |resource| Error::Shader {
             shader: step.pass.name(),
             features: format!("{:?}", step.features),
             message: format!("nothing is bound as {resource:?}"),
         };
-        let groups = kernel.bind(device, |resource| self.resource(resource, step, inputs, frame)).map_err(missing)?;
+        let groups =
+            kernel.bind(device, |resource| self.resource(resource, step, resources, frame)).map_err(missing)?;
         let [width, height] = step.grid().extent(self.size);
         let label = format!("asvgf {}", step.pass.name());
         let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor { label: Some(&label), timestamp_writes });
@@ -192,7 +193,7 @@ impl Recorder {
         &'a self,
         resource: Resource,
         step: &Step,
-        inputs: &Inputs<'a>,
+        resources: &Resources<'a>,
         (uniform, counts): (&'a Buffer, Option<&'a Buffer>),
     ) -> Option<BindingResource<'a>> {
         let part = |buffer, offset, size: usize| {
@@ -202,17 +203,17 @@ impl Recorder {
             Resource::Image(number) => {
                 let view = match step.bindings.get(number)?.slot {
                     slot @ (Slot::Now(_) | Slot::Before(_)) => self.textures.view(slot),
-                    Slot::Target => inputs.target,
-                    Slot::Host(view) => (inputs.host)(view),
+                    Slot::Target => resources.target,
+                    Slot::Host(view) => (resources.host)(view),
                 };
                 view.map(BindingResource::TextureView)
             }
             Resource::Frame => part(uniform, u64::from(step.batch) * frame::SPACING as u64, size_of::<FrameUniform>()),
             Resource::Stride => part(&self.strides, u64::from(step.iteration) * STRIDE_SPACING, 4),
-            Resource::Show => inputs.show.map(Buffer::as_entire_binding),
+            Resource::Show => resources.show.map(Buffer::as_entire_binding),
             Resource::Counts => counts.map(Buffer::as_entire_binding),
             #[cfg(feature = "path-tracer")]
-            Resource::Scene(binding) => (inputs.scene)(binding),
+            Resource::Scene(binding) => (resources.scene)(binding),
         }
     }
 }

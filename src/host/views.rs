@@ -3,7 +3,7 @@
 use super::{Lambda, Pairs, Shading, Surfaces};
 use crate::Error;
 use crate::passes::{Grid, HostView};
-use crate::plan::{Changes, HostTraits};
+use crate::plan::{Changes, HostInputs};
 use crate::settings::{Gradient, Mode, Settings};
 use wgpu::TextureFormat::{self, *};
 use wgpu::{TextureDimension, TextureUsages, TextureView};
@@ -143,29 +143,29 @@ impl<'a> Shading<'a> {
 }
 
 /// Checks the G-buffer's views, and notes their contents.
-pub(crate) fn surfaces(traits: &mut HostTraits, given: &Surfaces<'_>, size: [u32; 2]) -> Result<(), Error> {
+pub(crate) fn surfaces(inputs: &mut HostInputs, given: &Surfaces<'_>, size: [u32; 2]) -> Result<(), Error> {
     read("depth", given.depth, size, &[DEPTH], DEPTH_WORDS)?;
     let lists = [DIRECT_NORMAL, MAPPED_NORMAL, OCTAHEDRAL_NORMAL, MAPPED_OCTAHEDRAL_NORMAL, &[R32Uint]];
     let normal = read("normal", given.normal, size, &lists, NORMAL_WORDS)?;
-    traits.packed_normals = normal == R32Uint;
-    traits.mapped_normals = MAPPED_NORMAL.contains(&normal) || MAPPED_OCTAHEDRAL_NORMAL.contains(&normal);
-    traits.octahedral_normals = OCTAHEDRAL_NORMAL.contains(&normal) || MAPPED_OCTAHEDRAL_NORMAL.contains(&normal);
+    inputs.packed_normals = normal == R32Uint;
+    inputs.mapped_normals = MAPPED_NORMAL.contains(&normal) || MAPPED_OCTAHEDRAL_NORMAL.contains(&normal);
+    inputs.octahedral_normals = OCTAHEDRAL_NORMAL.contains(&normal) || MAPPED_OCTAHEDRAL_NORMAL.contains(&normal);
     read("motion", given.motion, size, &[MOTION], MOTION_WORDS)?;
     if let Some(view) = given.previous_depth {
         read("previous_depth", view, size, &[DEPTH], DEPTH_WORDS)?;
     }
-    traits.previous_depth = given.previous_depth.is_some();
+    inputs.previous_depth = given.previous_depth.is_some();
     if let Some(view) = given.instance {
         let format = read("instance", view, size, &[UINT_INSTANCE, FLOAT_INSTANCE], INSTANCE_WORDS)?;
-        traits.float_instances = FLOAT_INSTANCE.contains(&format);
+        inputs.float_instances = FLOAT_INSTANCE.contains(&format);
     }
-    traits.instances = given.instance.is_some();
+    inputs.instances = given.instance.is_some();
     Ok(())
 }
 
 /// Checks the light's views, and notes their contents.
 pub(crate) fn shading(
-    traits: &mut HostTraits,
+    inputs: &mut HostInputs,
     given: &Shading<'_>,
     size: [u32; 2],
     (settings, changes): (&Settings, Changes),
@@ -177,42 +177,42 @@ pub(crate) fn shading(
     if let Some(view) = given.emission {
         read("emission", view, size, &[RADIANCE], RADIANCE_WORDS)?;
     }
-    traits.albedo = given.albedo.is_some();
-    traits.emission = given.emission.is_some();
-    traits.demodulated = given.demodulated;
+    inputs.albedo = given.albedo.is_some();
+    inputs.emission = given.emission.is_some();
+    inputs.demodulated = given.demodulated;
     let light = [Some(given.radiance), given.albedo, given.emission];
-    traits.in_target = light.into_iter().flatten().any(|view| view.texture() == given.target.texture());
+    inputs.in_target = light.into_iter().flatten().any(|view| view.texture() == given.target.texture());
     if settings.mode != Mode::Denoise {
         return Ok(());
     }
-    traits.pairs = given.pairs.is_some();
-    traits.lambda = given.lambda.is_some();
+    inputs.pairs = given.pairs.is_some();
+    inputs.lambda = given.lambda.is_some();
     let missing = |view, setting, remedy| Error::ViewMissing { view, setting, remedy };
-    match settings.filter.gradient.hosted(traits.lambda, traits.pairs) {
+    match settings.filter.gradient.hosted(inputs.lambda, inputs.pairs) {
         // Nothing is made of them.
         Gradient::Pairs if !changes.scene => Ok(()),
         Gradient::Pairs => {
             let none = missing("pairs", "Gradient::Pairs", "fill `Shading::pairs`, or choose Gradient::Automatic");
-            pairs(traits, given.pairs.as_ref().ok_or(none)?, size)
+            pairs(inputs, given.pairs.as_ref().ok_or(none)?, size)
         }
         Gradient::Lambda => {
             let none = missing("lambda", "Gradient::Lambda", "fill `Shading::lambda`, or choose Gradient::Automatic");
-            lambda(traits, given.lambda.as_ref().ok_or(none)?, size)
+            lambda(inputs, given.lambda.as_ref().ok_or(none)?, size)
         }
         _ => Ok(()),
     }
 }
 
-fn pairs(traits: &mut HostTraits, given: &Pairs<'_>, size: [u32; 2]) -> Result<(), Error> {
+fn pairs(inputs: &mut HostInputs, given: &Pairs<'_>, size: [u32; 2]) -> Result<(), Error> {
     let texture = given.current.texture();
     let found = [texture.width(), texture.height()];
     // A 1×1 image has one pixel and one stratum: it does not matter which is meant.
-    traits.stratum_pairs = found == Grid::Strata.extent(size) && !given.in_place;
-    traits.pairs_in_place = given.in_place;
-    let size = if traits.stratum_pairs { found } else { size };
+    inputs.stratum_pairs = found == Grid::Strata.extent(size) && !given.in_place;
+    inputs.pairs_in_place = given.in_place;
+    let size = if inputs.stratum_pairs { found } else { size };
     let current = read("pairs.current", given.current, size, &[PAIR, LUMINANCE_PAIR], PAIR_WORDS)?;
-    traits.luminance_pairs = LUMINANCE_PAIR.contains(&current);
-    let (list, words) = if traits.luminance_pairs {
+    inputs.luminance_pairs = LUMINANCE_PAIR.contains(&current);
+    let (list, words) = if inputs.luminance_pairs {
         (LUMINANCE_PAIR, "r16float or r32float, as pairs.current holds luminances")
     } else {
         (PAIR, "rgba16float or rgba32float, as pairs.current holds radiances")
@@ -221,13 +221,13 @@ fn pairs(traits: &mut HostTraits, given: &Pairs<'_>, size: [u32; 2]) -> Result<(
     Ok(())
 }
 
-fn lambda(traits: &mut HostTraits, given: &Lambda<'_>, size: [u32; 2]) -> Result<(), Error> {
+fn lambda(inputs: &mut HostInputs, given: &Lambda<'_>, size: [u32; 2]) -> Result<(), Error> {
     if !(1..=32768).contains(&given.block) {
         let value = given.block.into();
         return Err(Error::Setting { setting: "Lambda::block", value, accepted: "1…32768 pixels" });
     }
     let size = size.map(|s| s.div_ceil(given.block));
     read("lambda", given.view, size, &[LAMBDA], LAMBDA_WORDS)?;
-    traits.confidence = given.confidence;
+    inputs.confidence = given.confidence;
     Ok(())
 }

@@ -4,7 +4,7 @@
 //! of an invocation after 65 535 rounds in total, and the picture goes dark without a word. So a dispatch traces no more paths than
 //! can be expected to stay well below that.
 
-use super::Traits;
+use super::SceneContents;
 use crate::settings::TracerSettings;
 
 /// Rounds of all loops that a pixel's paths may be expected to take in one dispatch: an eighth of the number that lavapipe allows,
@@ -28,13 +28,13 @@ pub(crate) struct Batches {
 
 impl Batches {
     /// The smallest safe number of dispatches.
-    pub fn of(traits: &Traits, tracer: &TracerSettings) -> Self {
-        let rounds_per_ray = if traits.few_triangles { 1 } else { 1 + ROUNDS_PER_LEVEL * traits.levels };
+    pub fn of(contents: &SceneContents, tracer: &TracerSettings) -> Self {
+        let rounds_per_ray = if contents.few_triangles { 1 } else { 1 + ROUNDS_PER_LEVEL * contents.levels };
         // One towards a light and one onwards from each surface.
         let surfaces = 1 + tracer.bounces.min(tracer.roulette.saturating_add(ROULETTE_REACH));
-        let rounds_per_surface = traits.environment_run.saturating_add(2 * rounds_per_ray);
+        let rounds_per_surface = contents.environment_run.saturating_add(2 * rounds_per_ray);
         // Where surfaces blend, each path begins with a ray from the camera.
-        let begins = if traits.alpha_blend { rounds_per_ray } else { 0 };
+        let begins = if contents.alpha_blend { rounds_per_ray } else { 0 };
         let rounds = surfaces.saturating_mul(rounds_per_surface).saturating_add(begins);
         let most = (MOST_ROUNDS / rounds.max(1)).max(1);
         let dispatches = tracer.samples.div_ceil(most).max(1);
@@ -59,7 +59,7 @@ mod tests {
 
     fn batches(samples: u32, bounces: u32, levels: u32) -> Batches {
         let tracer = TracerSettings { samples, bounces, ..Default::default() };
-        Batches::of(&Traits { levels, ..Default::default() }, &tracer)
+        Batches::of(&SceneContents { levels, ..Default::default() }, &tracer)
     }
 
     #[test]
@@ -86,7 +86,7 @@ mod tests {
         assert!(batches(1024, 0, 12).count() < batches(1024, 8, 12).count());
         let of_run = |environment_run| {
             Batches::of(
-                &Traits { few_triangles: true, environment_run, ..Default::default() },
+                &SceneContents { few_triangles: true, environment_run, ..Default::default() },
                 &TracerSettings { samples: 1024, ..Default::default() },
             )
         };

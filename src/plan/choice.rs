@@ -1,8 +1,8 @@
 //! The features of a frame, each with the reason why it is in or out.
 
 #[cfg(feature = "path-tracer")]
-use super::{Batches, Traits};
-use super::{Changes, Decision, Feature, HostTraits};
+use super::{Batches, SceneContents};
+use super::{Changes, Decision, Feature, HostInputs};
 use crate::settings::{self, Blend, FilterSettings, Kernel, Mode, Settings, Stops, Variance};
 use Feature::*;
 
@@ -17,39 +17,51 @@ const ACCUMULATE: [&str; 2] = ["the mode is the mean over frames", "the mode sho
 
 /// The decisions on a path-traced frame.
 #[cfg(feature = "path-tracer")]
-pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> Vec<Decision> {
+pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Changes) -> Vec<Decision> {
     use crate::settings::Sampling;
     let sampling = settings.tracer.sampling;
-    let lights = traits.emitters || traits.punctual_lights || traits.environment;
-    let glows = traits.emitters || traits.environment || traits.unlit;
-    let divided = Batches::of(traits, &settings.tracer).count() > 1;
+    let lights = contents.emitters || contents.punctual_lights || contents.environment;
+    let glows = contents.emitters || contents.environment || contents.unlit;
+    let divided = Batches::of(contents, &settings.tracer).count() > 1;
     let rows = [
-        (Instanced, traits.instanced, ["a mesh moves or repeats", "nothing moves or repeats: one tree, no placements"]),
-        (Objects, traits.instanced, OBJECTS),
+        (
+            Instanced,
+            contents.instanced,
+            ["a mesh moves or repeats", "nothing moves or repeats: one tree, no placements"],
+        ),
+        (Objects, contents.instanced, OBJECTS),
         (
             Textures,
-            traits.textures,
+            contents.textures,
             ["a material has an image", "no material has an image: no coordinates, no look-up"],
         ),
         (
             FoldedImages,
-            traits.textures && traits.folded_images,
+            contents.textures && contents.folded_images,
             ["images are larger than a storage binding: a texture holds them", "a buffer holds what images there are"],
         ),
-        (ShadingNormals, traits.shading_normals, ["a mesh has normals", "no mesh has: cross products of the edges do"]),
+        (
+            ShadingNormals,
+            contents.shading_normals,
+            ["a mesh has normals", "no mesh has: cross products of the edges do"],
+        ),
         (
             VertexColors,
-            traits.vertex_colors,
+            contents.vertex_colors,
             ["a mesh has colours at its vertices", "no mesh has colours at its vertices"],
         ),
-        (Specular, traits.specular, ["a material is not purely Lambertian", "all are Lambertian: no GGX lobe"]),
-        (AlphaMask, traits.alpha_mask, ["a material has holes", "no material has holes: any hit will do for a shadow"]),
-        (AlphaBlend, traits.alpha_blend, ["a material is blended", "no material is blended"]),
-        (FewTriangles, traits.few_triangles, FEW_TRIANGLES),
+        (Specular, contents.specular, ["a material is not purely Lambertian", "all are Lambertian: no GGX lobe"]),
+        (
+            AlphaMask,
+            contents.alpha_mask,
+            ["a material has holes", "no material has holes: any hit will do for a shadow"],
+        ),
+        (AlphaBlend, contents.alpha_blend, ["a material is blended", "no material is blended"]),
+        (FewTriangles, contents.few_triangles, FEW_TRIANGLES),
         (Lights, lights, ["there is light to sample", "nothing emits: no light is sampled"]),
-        (Emitters, traits.emitters, ["triangles emit", "no triangle emits"]),
-        (PunctualLights, traits.punctual_lights, ["there are lights without area", "there is no light without area"]),
-        (EnvironmentLight, traits.environment, ["the environment is not black", "the environment is black"]),
+        (Emitters, contents.emitters, ["triangles emit", "no triangle emits"]),
+        (PunctualLights, contents.punctual_lights, ["there are lights without area", "there is no light without area"]),
+        (EnvironmentLight, contents.environment, ["the environment is not black", "the environment is black"]),
         (Albedo, true, ["light is filtered without the surfaces' textures", ""]),
         (DirectEmission, glows, ["some surface or the sky is seen to emit", "nothing that is seen emits"]),
         (LightSamplesOnly, sampling == Sampling::Lights, ["the settings say so", "scattered rays find light too"]),
@@ -58,56 +70,56 @@ pub(super) fn traced(traits: &Traits, settings: &Settings, changes: Changes) -> 
         (Unfiltered, settings.mode != Mode::Denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&rows, settings.filter.gradient.traced(), [false, traits.views], settings, changes)
+    with_filter(&rows, settings.filter.gradient.traced(), [false, contents.views], settings, changes)
 }
 
 /// The decisions on a frame of the host's renderer.
-pub(super) fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes) -> Vec<Decision> {
+pub(super) fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes) -> Vec<Decision> {
     let denoise = settings.mode == Mode::Denoise;
-    let source = settings.filter.gradient.hosted(traits.lambda, traits.pairs);
+    let source = settings.filter.gradient.hosted(inputs.lambda, inputs.pairs);
     let pairs = denoise && source == settings::Gradient::Pairs;
     let lambda = denoise && source == settings::Gradient::Lambda;
-    let modulated = !traits.demodulated && (traits.albedo || traits.emission);
+    let modulated = !inputs.demodulated && (inputs.albedo || inputs.emission);
     let reshade = denoise && source == settings::Gradient::Reshade;
-    let [copied_motion, copied_light] = why_copies(traits, reshade);
+    let [copied_motion, copied_light] = why_copies(inputs, reshade);
     let rows = [
         (
             OctahedralNormals,
-            traits.octahedral_normals,
+            inputs.octahedral_normals,
             ["normals have two components", "normals have three components"],
         ),
-        (MappedNormals, traits.mapped_normals, ["normals are mapped to 0…1", "normals are signed"]),
-        (PackedNormals, traits.packed_normals, ["normals are one word", "normals have channels"]),
-        (PreviousDepth, traits.previous_depth, ["previous depths are given", "no previous depth is given"]),
+        (MappedNormals, inputs.mapped_normals, ["normals are mapped to 0…1", "normals are signed"]),
+        (PackedNormals, inputs.packed_normals, ["normals are one word", "normals have channels"]),
+        (PreviousDepth, inputs.previous_depth, ["previous depths are given", "no previous depth is given"]),
         (HostMotion, copied_motion.is_none(), ["it is read once", copied_motion.unwrap_or_default()]),
         (HostLight, copied_light.is_none(), ["it is read as it came", copied_light.unwrap_or_default()]),
-        (Objects, traits.instances, OBJECTS),
-        (FloatObjects, traits.instances && traits.float_instances, ["instances are floats", "no instance is a float"]),
-        (Albedo, traits.albedo, ["an albedo is given", "no albedo is given: textures are filtered with the light"]),
-        (DirectEmission, traits.emission, ["emission is given", "no emission is given"]),
+        (Objects, inputs.instances, OBJECTS),
+        (FloatObjects, inputs.instances && inputs.float_instances, ["instances are floats", "no instance is a float"]),
+        (Albedo, inputs.albedo, ["an albedo is given", "no albedo is given: textures are filtered with the light"]),
+        (DirectEmission, inputs.emission, ["emission is given", "no emission is given"]),
         (Modulated, modulated, ["radiance comes with albedo and emission", "radiance is the light alone"]),
         (Background, denoise, ["what misses is shown as it is", "all is shown as it is"]),
-        (LuminancePairs, pairs && traits.luminance_pairs, ["pairs are luminances", "no pair is a luminance"]),
-        (StratumPairs, pairs && traits.stratum_pairs, ["there is one pair per stratum", "pairs stand in their pixels"]),
-        (Confidence, lambda && traits.confidence, ["λ is given as 1 − λ", "no confidence is given"]),
+        (LuminancePairs, pairs && inputs.luminance_pairs, ["pairs are luminances", "no pair is a luminance"]),
+        (StratumPairs, pairs && inputs.stratum_pairs, ["there is one pair per stratum", "pairs stand in their pixels"]),
+        (Confidence, lambda && inputs.confidence, ["λ is given as 1 − λ", "no confidence is given"]),
         (MissingSamples, denoise, ["a renderer's pixel may be no number", "no history is kept"]),
         (RepeatedNoise, denoise, ["a renderer's noise may be the same in every frame", "no history is kept"]),
-        (Diagnostics, traits.diagnostics, ["cleaned input is counted", "nobody asked for counts"]),
+        (Diagnostics, inputs.diagnostics, ["cleaned input is counted", "nobody asked for counts"]),
         (Unfiltered, !denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&rows, source, [pairs && traits.pairs_in_place, traits.views], settings, changes)
+    with_filter(&rows, source, [pairs && inputs.pairs_in_place, inputs.views], settings, changes)
 }
 
 /// The reasons for a copy of a host's motion and of its light, if there is one.
-fn why_copies(traits: &HostTraits, reshade: bool) -> [Option<&'static str>; 2] {
+fn why_copies(inputs: &HostInputs, reshade: bool) -> [Option<&'static str>; 2] {
     let reasons = [
         (reshade, "a copy is kept: repeated paths need it, or the last frame's"),
-        (traits.diagnostics, "a copy is kept: what is cleaned is counted once"),
-        (traits.views, "a copy is kept for views"),
+        (inputs.diagnostics, "a copy is kept: what is cleaned is counted once"),
+        (inputs.views, "a copy is kept for views"),
     ];
     let why = reasons.into_iter().find(|(holds, _)| *holds).map(|(_, why)| why);
-    [why, why.or(traits.in_target.then_some("a copy is kept: a shader cannot read what it writes"))]
+    [why, why.or(inputs.in_target.then_some("a copy is kept: a shader cannot read what it writes"))]
 }
 
 /// The rows, and those of the filter if the mode filters. `given` says whether pairs stand in place, and whether views are kept.

@@ -212,7 +212,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::{Changes, HostTraits};
+    use crate::plan::{Changes, HostInputs};
     use crate::{FilterSettings, Gradient, Mode, Settings};
 
     /// Plans of a host's frames that differ in what they keep, each with what it is if everything changes.
@@ -227,12 +227,12 @@ mod tests {
         let settings = filters
             .flat_map(short)
             .flat_map(|filter| modes.map(|mode| Settings { mode, filter: filter.clone(), ..Settings::adaptive() }));
-        let traits =
-            [false, true].map(|on| HostTraits { instances: on, albedo: on, emission: on, ..Default::default() });
-        let all: Vec<_> = settings.flat_map(|s| traits.map(|t| (s.clone(), t))).collect();
+        let inputs =
+            [false, true].map(|on| HostInputs { instances: on, albedo: on, emission: on, ..Default::default() });
+        let all: Vec<_> = settings.flat_map(|s| inputs.map(|t| (s.clone(), t))).collect();
         let changes = [Changes::ANY, Changes { camera: true, scene: false }, Changes::NONE];
-        let plan = |settings: &Settings, traits: &HostTraits, changes| {
-            Plan::hosted(traits, settings, changes, TextureFormat::Rgba32Float)
+        let plan = |settings: &Settings, inputs: &HostInputs, changes| {
+            Plan::hosted(inputs, settings, changes, TextureFormat::Rgba32Float)
         };
         all.iter().flat_map(|(s, t)| changes.map(|c| (plan(s, t, c), plan(s, t, Changes::ANY)))).collect()
     }
@@ -317,19 +317,19 @@ mod tests {
     fn frames_take_no_more_than_the_images_that_are_alive_at_once() {
         // Whole strata.
         let size = [300, 300];
-        let bytes_of = |filter: FilterSettings, traits: HostTraits| {
+        let bytes_of = |filter: FilterSettings, inputs: HostInputs| {
             let settings = Settings { filter, ..Settings::adaptive() };
-            let plan = Plan::hosted(&traits, &settings, Changes::ANY, TextureFormat::Rgba32Float);
+            let plan = Plan::hosted(&inputs, &settings, Changes::ANY, TextureFormat::Rgba32Float);
             plan.bytes(size, false) as f64 / f64::from(size[0] * size[1])
         };
-        let bytes = |gradient, traits| {
+        let bytes = |gradient, inputs| {
             let believing = FilterSettings { gradient, outlier_limit: 0.0, ..Default::default() };
-            let bare = bytes_of(FilterSettings { steadiness: 0.0, ..believing.clone() }, traits);
+            let bare = bytes_of(FilterSettings { steadiness: 0.0, ..believing.clone() }, inputs);
             // The output, now and before.
-            let steady = bytes_of(believing, traits);
+            let steady = bytes_of(believing, inputs);
             assert_eq!(steady, bare + 16.0, "{gradient:?}");
             // The strata's candidates and limits, now and before; what is counted on the way gives way to others.
-            let limited = bytes_of(FilterSettings { gradient, ..Default::default() }, traits);
+            let limited = bytes_of(FilterSettings { gradient, ..Default::default() }, inputs);
             let records = match gradient {
                 Gradient::Off | Gradient::Lambda => 4.0,
                 _ => 2.0,
@@ -337,8 +337,8 @@ mod tests {
             assert!((limited - steady - records * 16.0 / 9.0).abs() < 1e-9, "{gradient:?}: {}", limited - steady);
             bare
         };
-        let alone = HostTraits::default();
-        let all = HostTraits { albedo: true, emission: true, ..alone };
+        let alone = HostInputs::default();
+        let all = HostInputs { albedo: true, emission: true, ..alone };
         // Guide and history, each now and before.
         assert_eq!(bytes(Gradient::Off, alone), 32.0);
         assert_eq!(bytes(Gradient::Off, all), 32.0);

@@ -9,19 +9,19 @@
 mod batches;
 mod changes;
 mod choice;
+mod contents;
 mod decision;
 mod display;
 mod memory;
 mod show;
-mod traits;
 
 pub use crate::passes::{Bound, Feature, Features, Grid, HostView, Image, Slot, Step, Traversal};
 #[cfg(feature = "path-tracer")]
 pub(crate) use batches::Batches;
 pub use changes::Changes;
+pub use contents::{HostInputs, SceneContents};
 pub use decision::Decision;
 pub(crate) use memory::{Kind, Memory, needed};
-pub use traits::{HostTraits, Traits};
 
 use crate::passes::*;
 use crate::settings::{Mode, Settings};
@@ -47,21 +47,21 @@ pub struct Plan {
 impl Plan {
     /// The passes that a path-traced frame needs.
     #[cfg(feature = "path-tracer")]
-    pub fn path_traced(traits: &Traits, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
-        let mut plan = Self::of(choice::traced(traits, settings, changes), target);
+    pub fn path_traced(contents: &SceneContents, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
+        let mut plan = Self::of(choice::traced(contents, settings, changes), target);
         plan.run(&visibility::PASS);
         if plan.has(Feature::Gradient) && !plan.has(Feature::Statistics) {
             plan.run(&gradient_sample::PASS);
         }
-        plan.trace(Batches::of(traits, &settings.tracer).count());
+        plan.trace(Batches::of(contents, &settings.tracer).count());
         plan.filter(settings);
         plan.run_on(&resolve::PASS, plan.color);
         plan
     }
 
     /// The passes that a frame of the host's own renderer needs.
-    pub fn hosted(traits: &HostTraits, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
-        let mut plan = Self::of(choice::hosted(traits, settings, changes), target);
+    pub fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
+        let mut plan = Self::of(choice::hosted(inputs, settings, changes), target);
         plan.run(&ingest_surface::PASS);
         if plan.has(Feature::Reshade) {
             plan.run(&gradient_sample::PASS);

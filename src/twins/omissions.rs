@@ -2,14 +2,14 @@
 
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::passes::{Pass, resolve, temporal, trace, visibility};
-use crate::plan::{Changes, Feature, Features, Plan, Step, Traits, Traversal};
+use crate::plan::{Changes, Feature, Features, Plan, SceneContents, Step, Traversal};
 use crate::{FilterSettings, Gradient, Settings};
 use std::collections::BTreeSet;
 use wgpu::TextureFormat;
 use wgpu::naga::Module;
 
 /// The same of all scenes that have everything but a GPU-less few triangles.
-const ALL: Traits = Traits {
+const ALL: SceneContents = SceneContents {
     instanced: true,
     textures: true,
     folded_images: false,
@@ -28,8 +28,8 @@ const ALL: Traits = Traits {
     views: false,
 };
 
-fn plan(traits: &Traits, filter: FilterSettings, changes: Changes) -> Plan {
-    Plan::path_traced(traits, &Settings { filter, ..Settings::adaptive() }, changes, TextureFormat::Rgba32Float)
+fn plan(contents: &SceneContents, filter: FilterSettings, changes: Changes) -> Plan {
+    Plan::path_traced(contents, &Settings { filter, ..Settings::adaptive() }, changes, TextureFormat::Rgba32Float)
 }
 
 fn compose(shaders: &mut Shaders, step: &Step) -> Module {
@@ -110,20 +110,20 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "texel_radiance",
         "unpack_rgb",
     ][..];
-    let cases: [(Traits, &[&str]); 10] = [
-        (Traits { instanced: false, ..ALL }, moving),
-        (Traits { textures: false, ..ALL }, images),
-        (Traits { shading_normals: false, ..ALL }, &["octahedral", "transform_normal", "unpack_octahedral"]),
-        (Traits { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
-        (Traits { specular: false, ..ALL }, &["distribution", "fresnel", "smith", "specular_share"]),
-        (Traits { alpha_mask: false, alpha_blend: false, ..ALL }, &opacity),
-        (Traits { alpha_blend: false, ..ALL }, &blending),
-        (Traits { emitters: false, ..ALL }, &["emitter_density"]),
-        (Traits { punctual_lights: false, ..ALL }, &[]),
-        (Traits { environment: false, ..ALL }, sky),
+    let cases: [(SceneContents, &[&str]); 10] = [
+        (SceneContents { instanced: false, ..ALL }, moving),
+        (SceneContents { textures: false, ..ALL }, images),
+        (SceneContents { shading_normals: false, ..ALL }, &["octahedral", "transform_normal", "unpack_octahedral"]),
+        (SceneContents { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
+        (SceneContents { specular: false, ..ALL }, &["distribution", "fresnel", "smith", "specular_share"]),
+        (SceneContents { alpha_mask: false, alpha_blend: false, ..ALL }, &opacity),
+        (SceneContents { alpha_blend: false, ..ALL }, &blending),
+        (SceneContents { emitters: false, ..ALL }, &["emitter_density"]),
+        (SceneContents { punctual_lights: false, ..ALL }, &[]),
+        (SceneContents { environment: false, ..ALL }, sky),
     ];
-    for (traits, lost) in cases {
-        let lean = plan(&traits, FilterSettings::default(), Changes::ANY);
+    for (contents, lost) in cases {
+        let lean = plan(&contents, FilterSettings::default(), Changes::ANY);
         assert_leaner(&mut shaders, pair(&everything, &lean, &trace::PASS), lost);
     }
 }
@@ -155,7 +155,7 @@ fn what_the_settings_and_the_frame_do_not_ask_for_is_not_in_the_shaders() {
         "sample, pairs, 3 × their filter, gradient, 2 × its filter"
     );
     let bare = FilterSettings { iterations: 0, gradient: Gradient::Off, outlier_limit: 0.0, ..Default::default() };
-    let bare = plan(&Traits::default(), bare, Changes::ANY);
+    let bare = plan(&SceneContents::default(), bare, Changes::ANY);
     assert_eq!(passes(&bare), [&visibility::PASS, &trace::PASS, &temporal::PASS, &resolve::PASS]);
     let size = [1920, 1080];
     let bytes = [&adaptive, &constant, &bare].map(|plan| plan.bytes(size, false));
@@ -164,8 +164,8 @@ fn what_the_settings_and_the_frame_do_not_ask_for_is_not_in_the_shaders() {
 
 #[test]
 fn every_decision_has_a_reason_and_is_carried_out() {
-    for (traits, changes) in [(ALL, Changes::ANY), (Traits::default(), Changes::ANY), (ALL, Changes::NONE)] {
-        let plan = plan(&traits, FilterSettings::default(), changes);
+    for (contents, changes) in [(ALL, Changes::ANY), (SceneContents::default(), Changes::ANY), (ALL, Changes::NONE)] {
+        let plan = plan(&contents, FilterSettings::default(), changes);
         let mut decided = BTreeSet::new();
         for decision in &plan.decisions {
             assert!(!decision.reason.is_empty(), "{decision:?}");
@@ -181,7 +181,7 @@ fn every_decision_has_a_reason_and_is_carried_out() {
 
 #[test]
 fn a_plan_can_be_read() {
-    let plan = plan(&Traits::default(), FilterSettings::default(), Changes::ANY);
+    let plan = plan(&SceneContents::default(), FilterSettings::default(), Changes::ANY);
     let table = plan.to_string();
     for expected in [
         format!("{} dispatches", plan.steps.len()).as_str(),

@@ -4,7 +4,7 @@
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::resource::Resource;
-use crate::plan::{Changes, Feature, Features, HostTraits, Plan, Step, Traits, Traversal};
+use crate::plan::{Changes, Feature, Features, HostInputs, Plan, SceneContents, Step, Traversal};
 use crate::scene::{Environment, GpuScene, Scene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
@@ -24,7 +24,7 @@ fn noop_device() -> (Device, Queue) {
 }
 
 /// All combinations: at some 150 shaders a second they are checked in a quarter of a minute.
-fn traits() -> Vec<Traits> {
+fn contents() -> Vec<SceneContents> {
     (0_u32..8192)
         // Only images may be folded. It changes one function, and is tried with a part of the rest.
         .filter(|bits| bits >> 12 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1101_0110_0000 == 0)
@@ -36,7 +36,7 @@ fn traits() -> Vec<Traits> {
         .filter(|bits| bits >> 11 & 1 == 0 || bits >> 4 & 1 == 1 && bits >> 2 & 3 == 3)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
-            Traits {
+            SceneContents {
                 instanced: bit(0),
                 textures: bit(1),
                 shading_normals: bit(2),
@@ -69,12 +69,12 @@ const CHANGES: [Changes; 3] = [Changes::ANY, Changes { camera: true, scene: fals
 const TARGETS: [TextureFormat; 2] = [TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
 
 /// All combinations of what a host may hand in.
-fn host_traits() -> Vec<HostTraits> {
+fn host_inputs() -> Vec<HostInputs> {
     (0_u32..1 << 11)
         .flat_map(|bits| {
             let bit = move |i: u32| bits >> i & 1 == 1;
             // Direct, mapped, octahedral, both, packed.
-            (0..5).map(move |normal| HostTraits {
+            (0..5).map(move |normal| HostInputs {
                 octahedral_normals: normal == 2 || normal == 3,
                 mapped_normals: normal == 1 || normal == 3,
                 packed_normals: normal == 4,
@@ -127,18 +127,18 @@ fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
         .collect()
 }
 
-/// Plans whose steps cover what is reachable: tracing depends on traits, sampling and gradient alone, filtering on the
+/// Plans whose steps cover what is reachable: tracing depends on contents, sampling and gradient alone, filtering on the
 /// filter and on whether there are objects.
 fn plans() -> Vec<Plan> {
     let mut plans = Vec::new();
-    for (traits, (sampling, gradient)) in product(&traits(), &product(&SAMPLINGS, &GRADIENTS)) {
+    for (contents, (sampling, gradient)) in product(&contents(), &product(&SAMPLINGS, &GRADIENTS)) {
         for (mode, target) in product(&MODES, &TARGETS) {
             let settings = Settings {
                 mode,
                 filter: FilterSettings { gradient, ..Default::default() },
                 tracer: TracerSettings { sampling, ..Default::default() },
             };
-            let plan = Plan::path_traced(&traits, &settings, Changes::ANY, target);
+            let plan = Plan::path_traced(&contents, &settings, Changes::ANY, target);
             if (sampling, gradient, mode) == (Sampling::Both, Gradient::Reshade, Mode::Denoise) {
                 plans.push(plan.clone().on_cpu());
             }
@@ -146,17 +146,17 @@ fn plans() -> Vec<Plan> {
         }
     }
     // Paths of one frame in one dispatch, two, or more.
-    for (traits, samples) in product(&traits(), &[1, 40, 1000]) {
+    for (contents, samples) in product(&contents(), &[1, 40, 1000]) {
         let tracer = TracerSettings { samples, ..Default::default() };
-        let traits = Traits { levels: 12, ..traits };
+        let contents = SceneContents { levels: 12, ..contents };
         let settings = Settings { tracer, ..Settings::adaptive() };
-        plans.push(Plan::path_traced(&traits, &settings, Changes::ANY, TARGETS[1]));
+        plans.push(Plan::path_traced(&contents, &settings, Changes::ANY, TARGETS[1]));
     }
     for ((instanced, views), filter) in product(&product(&[false, true], &[false, true]), &filters(&GRADIENTS)) {
         let settings = Settings { filter, ..Settings::adaptive() };
-        let traits = Traits { instanced, views, ..Default::default() };
+        let contents = SceneContents { instanced, views, ..Default::default() };
         for changes in CHANGES {
-            let plan = Plan::path_traced(&traits, &settings, changes, TextureFormat::Rgba32Float);
+            let plan = Plan::path_traced(&contents, &settings, changes, TextureFormat::Rgba32Float);
             plans.push(plan.clone().on_cpu());
             plans.push(plan);
         }
@@ -164,20 +164,20 @@ fn plans() -> Vec<Plan> {
     plans
 }
 
-/// The same for hosts' frames: taking them in depends on the traits and the gradient, filtering on the filter, on whether there
+/// The same for hosts' frames: taking them in depends on the contents and the gradient, filtering on the filter, on whether there
 /// are objects, and on what kind of pairs or λ there is.
 fn host_plans() -> Vec<Plan> {
     let mut plans = Vec::new();
-    for (traits, gradient) in product(&host_traits(), &HOST_GRADIENTS) {
+    for (inputs, gradient) in product(&host_inputs(), &HOST_GRADIENTS) {
         let settings = Settings { filter: FilterSettings { gradient, ..Default::default() }, ..Settings::adaptive() };
         for changes in CHANGES {
-            plans.push(Plan::hosted(&traits, &settings, changes, TextureFormat::Rgba32Float));
+            plans.push(Plan::hosted(&inputs, &settings, changes, TextureFormat::Rgba32Float));
         }
     }
     // The host's own images, and copies of some or all.
     for (bits, (mode, target)) in product(&(0_u32..1 << 6).collect::<Vec<_>>(), &product(&MODES, &TARGETS)) {
         let bit = |i: u32| bits >> i & 1 == 1;
-        let traits = HostTraits {
+        let inputs = HostInputs {
             albedo: bit(0),
             emission: bit(1),
             demodulated: bit(2),
@@ -189,13 +189,13 @@ fn host_plans() -> Vec<Plan> {
         for gradient in HOST_GRADIENTS {
             let filter = FilterSettings { gradient, ..Default::default() };
             let settings = Settings { mode, filter, ..Settings::adaptive() };
-            plans.push(Plan::hosted(&traits, &settings, Changes::ANY, target));
+            plans.push(Plan::hosted(&inputs, &settings, Changes::ANY, target));
         }
     }
     for (instances, (marked, filter)) in product(&[false, true], &product(&[false, true], &filters(&HOST_GRADIENTS))) {
-        let traits = HostTraits { instances, pairs_in_place: marked, confidence: marked, ..Default::default() };
+        let inputs = HostInputs { instances, pairs_in_place: marked, confidence: marked, ..Default::default() };
         let settings = Settings { filter, ..Settings::adaptive() };
-        plans.push(Plan::hosted(&traits, &settings, Changes::ANY, TextureFormat::Rgba32Float));
+        plans.push(Plan::hosted(&inputs, &settings, Changes::ANY, TextureFormat::Rgba32Float));
     }
     plans
 }
@@ -232,15 +232,15 @@ pub(super) fn traversals() -> BTreeMap<Permutation, Step> {
     let mut steps = BTreeMap::new();
     for traversal in stacks.into_iter().chain(counts) {
         let few_triangles = matches!(traversal, Traversal::Every { .. });
-        let traits = Traits {
+        let contents = SceneContents {
             instanced: true,
             shading_normals: true,
             environment: true,
             alpha_mask: !few_triangles,
             few_triangles,
-            ..Traits::default().everything()
+            ..SceneContents::default().everything()
         };
-        let plan = Plan::path_traced(&traits, &Settings::adaptive(), Changes::ANY, TextureFormat::Rgba32Float);
+        let plan = Plan::path_traced(&contents, &Settings::adaptive(), Changes::ANY, TextureFormat::Rgba32Float);
         for step in plan.steps.into_iter().filter(|step| step.pass.traces) {
             steps.insert(Permutation::of(&step, traversal), step);
         }

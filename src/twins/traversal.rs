@@ -131,11 +131,11 @@ fn queries(triangles: &[[DVec3; 3]]) -> Vec<Query> {
 fn ask_gpu(scene: &GpuScene, queries: &[Query]) -> Vec<Answer> {
     let gpu = gpu();
     let device = &gpu.device;
-    let traits = scene.traits();
-    let features = [(Feature::Instanced, traits.instanced), (Feature::FewTriangles, traits.few_triangles)];
+    let contents = scene.contents();
+    let features = [(Feature::Instanced, contents.instanced), (Feature::FewTriangles, contents.few_triangles)];
     let features: Features = features.into_iter().filter(|(_, on)| *on).map(|(f, _)| f).collect();
     let permutation =
-        Permutation { pass: &visibility::PASS, features, traversal: scene.traversal(&scene.traits()), view: None };
+        Permutation { pass: &visibility::PASS, features, traversal: scene.traversal(&scene.contents()), view: None };
     let module = Shaders::new().and_then(|mut s| s.compose_source(include_str!("traversal.wgsl"), permutation));
     let module = module.unwrap_or_else(|e| panic!("{e}"));
     let used = used_bindings(&module).unwrap();
@@ -242,7 +242,7 @@ fn check(name: &str, scene: &Scene, pose: &Pose) {
     let bvh = builder::build_bvh2_from_tris(&narrow, BvhBuildParams::medium_build(), &mut Duration::default());
     let queries = queries(&world);
     let mut expected = |query: &Query| if world.is_empty() { None } else { ask_obvhs(&bvh, &narrow, query) };
-    if uploaded.traits().few_triangles {
+    if uploaded.contents().few_triangles {
         compare(&format!("{name}, each triangle"), &world, &queries, &mut expected, &ask_gpu(&uploaded, &queries));
         uploaded.use_trees();
     }
@@ -359,7 +359,7 @@ fn a_thousand_instances_mirrored_and_stretched() {
         scene.nodes.push(Node { meshes: vec![0], transform, ..Default::default() });
     }
     let pose = scene.pose(None, 0.0);
-    assert!(GpuScene::new(&gpu().device, &gpu().queue, &scene).unwrap().traits().instanced);
+    assert!(GpuScene::new(&gpu().device, &gpu().queue, &scene).unwrap().contents().instanced);
     check("instances", &scene, &pose);
 }
 

@@ -110,6 +110,6 @@ fn measure(gpu: &Gpu, scene: &Scene, size: [u32; 2]) -> Result<Cost, Box<dyn Err
     let rays = film.numbers(View::Rays)?.iter().map(|number| f64::from(number[0])).sum();
     let (images, of_scene) = (film.denoiser.memory(), uploaded.memory());
     let (tracing, filter) = (typical(true), typical(false));
-    let tree = !uploaded.traits().few_triangles;
+    let tree = !uploaded.contents().few_triangles;
     Ok(Cost { size, triangles: count(scene), tree, tracing, filter, rays, images, scene: of_scene })
 }

@@ -1,6 +1,7 @@
 //! A scene laid out for the GPU, as plain data: the content of its buffers and textures in the rest pose.
 
 use super::arrangement::{Arrangement, Facets, lengths};
+use super::contents::contents;
 use super::geometry::centre;
 use super::geometry::facets;
 use super::geometry::groups::{Group, groups};
@@ -15,8 +16,7 @@ use super::memory::capacity::Capacity;
 use super::memory::folded::Texel;
 use super::surface::materials::GpuMaterial;
 use super::surface::places::{are_folded, places};
-use super::traits::traits;
-use crate::plan::Traits;
+use crate::plan::SceneContents;
 use crate::scene::description::{Environment, Image, Pose, Scene, SceneError};
 use glam::DVec3;
 
@@ -25,7 +25,7 @@ const LARGEST_STACK: u32 = 64;
 
 /// All data of a scene.
 pub(crate) struct Assembly<'a> {
-    pub traits: Traits,
+    pub contents: SceneContents,
     /// Slots of the traversal's stack.
     pub stack: u32,
     /// Rows of the lookup table.
@@ -78,7 +78,7 @@ impl<'a> Assembly<'a> {
             header = header.with_environment(table, light, lights.table[light].pmf);
         }
 
-        let used = traits(scene, geometry.layout);
+        let used = contents(scene, geometry.layout);
         let drawn: usize = instances.iter().map(|instance| instance.row_count as usize).sum();
         let few_triangles = capacity.on_cpu && drawn <= facets::MOST && !used.alpha_mask;
         let corners = || geometry.rows.iter().map(|row| row.map(corner)).collect();
@@ -100,7 +100,7 @@ impl<'a> Assembly<'a> {
         capacity.check_texels("triangles and their trees", texels.len())?;
         let Geometry { attributes, rows, .. } = geometry;
         capacity.check_bytes("normals and texture coordinates", size_of_val(attributes.as_slice()))?;
-        let traits = Traits {
+        let contents = SceneContents {
             instanced: sections.instanced,
             emitters: used.emitters && emitters > 0,
             punctual_lights: punctual > 0,
@@ -112,7 +112,7 @@ impl<'a> Assembly<'a> {
             ..used
         };
         Ok(Self {
-            traits,
+            contents,
             stack,
             triangles: rows.len(),
             header: top_level.header,
@@ -199,14 +199,14 @@ mod tests {
         let assembly = Assembly::of(&scene, &capacity(false)).unwrap();
         // Six quads and three blocks.
         assert_eq!(assembly.triangles, 6 * 2 + 3 * 12);
-        assert!(!assembly.traits.instanced && assembly.arrangement.instances.len() == 1);
+        assert!(!assembly.contents.instanced && assembly.arrangement.instances.len() == 1);
         assert_eq!(assembly.header.root() as usize, assembly.triangles * 3 / 2);
         // The two triangles of the lamp and twelve of the blue one, and no other light.
         assert_eq!(assembly.arrangement.lights.table.len(), 14);
         assert_eq!(assembly.analytic_lights.len(), 2);
-        assert!(assembly.traits.emitters && !assembly.traits.punctual_lights && !assembly.traits.environment);
+        assert!(assembly.contents.emitters && !assembly.contents.punctual_lights && !assembly.contents.environment);
         assert!(assembly.facets.is_none() && assembly.sky.is_none());
-        assert!(assembly.stack >= assembly.traits.levels + 3 && assembly.stack.is_multiple_of(4));
+        assert!(assembly.stack >= assembly.contents.levels + 3 && assembly.stack.is_multiple_of(4));
     }
 
     #[test]
@@ -215,7 +215,7 @@ mod tests {
         let mut assembly = Assembly::of(&scene, &capacity(false)).unwrap();
         let arrangement = &mut assembly.arrangement;
         // The static geometry, the lamp and the tall block.
-        assert!(assembly.traits.instanced && arrangement.instances.len() == 3);
+        assert!(assembly.contents.instanced && arrangement.instances.len() == 3);
         let (rest, moved) = (scene.pose(None, 0.0), scene.pose(Some(0), 1.0));
         assert!(arrangement.top_level(&rest).texels != arrangement.top_level(&moved).texels);
         assert!(arrangement.visible(&rest) == arrangement.visible(&rest.clone()));
@@ -232,7 +232,7 @@ mod tests {
         let scene = builtin::scene("cornell", "all").unwrap();
         let assembly = Assembly::of(&scene, &capacity(true)).unwrap();
         let facets = assembly.facets.unwrap();
-        assert!(assembly.traits.few_triangles && assembly.triangles == 48);
+        assert!(assembly.contents.few_triangles && assembly.triangles == 48);
         assert_eq!((facets.facets.len(), facets.owners.len()), (48, 48));
         assert_eq!(assembly.arrangement.facet_count(), Some(48));
         let mut rows: Vec<u32> = facets.owners.iter().map(|owner| owner[0]).collect();
@@ -252,7 +252,7 @@ mod tests {
         let table = &assembly.arrangement.lights.table;
         assert_eq!(table.iter().map(|light| light.kind).collect::<Vec<_>>(), [0, 0, 1, 3]);
         assert!((table.iter().map(|light| light.pmf).sum::<f32>() - 1.0).abs() < 1e-6);
-        assert!(assembly.traits.punctual_lights && assembly.traits.environment);
+        assert!(assembly.contents.punctual_lights && assembly.contents.environment);
         assert_eq!(assembly.sky.unwrap().1.size, [1, 1]);
     }
 

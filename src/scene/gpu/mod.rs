@@ -2,13 +2,13 @@
 
 mod arrangement;
 mod assembly;
+mod contents;
 mod geometry;
 mod header;
 mod light;
 mod memory;
 mod snapshot;
 mod surface;
-mod traits;
 mod tree;
 mod upload;
 mod visible;
@@ -20,7 +20,7 @@ pub(crate) use visible::Visible;
 
 use super::description::{Pose, Scene, SceneError};
 use crate::passes::{SceneBinding, Traversal};
-use crate::plan::Traits;
+use crate::plan::SceneContents;
 use arrangement::Arrangement;
 use assembly::Assembly;
 use memory::capacity::Capacity;
@@ -37,7 +37,7 @@ use wgpu::{BindingResource, CommandEncoder, Device, Queue};
 #[derive(Debug)]
 pub struct GpuScene {
     id: u64,
-    traits: Traits,
+    contents: SceneContents,
     stack: u32,
     triangles: usize,
     arrangement: Arrangement,
@@ -56,10 +56,10 @@ impl GpuScene {
         let assembly = Assembly::of(scene, &Capacity::of(device))?;
         let buffers = Buffers::new(device, queue, &assembly);
         let id = NEXT.fetch_add(1, Ordering::Relaxed);
-        let Assembly { traits, stack, triangles, pose, arrangement, analytic_lights, .. } = assembly;
+        let Assembly { contents, stack, triangles, pose, arrangement, analytic_lights, .. } = assembly;
         let (visible, placements) = (Arc::new(arrangement.visible(&pose)), arrangement.placements(&pose));
         let snapshot = Arc::new(Snapshot::new(device, id, visible, &placements, &analytic_lights));
-        Ok(Self { id, traits, stack, triangles, arrangement, buffers, snapshot })
+        Ok(Self { id, contents, stack, triangles, arrangement, buffers, snapshot })
     }
 
     /// Brings the scene into a pose. A frame in which nothing changes needs no call. Each denoiser compares the pose with the one
@@ -95,8 +95,8 @@ impl GpuScene {
     }
 
     /// Properties of the scene that decide what its passes contain.
-    pub fn traits(&self) -> Traits {
-        self.traits
+    pub fn contents(&self) -> SceneContents {
+        self.contents
     }
 
     /// Bytes of GPU memory that the scene takes.
@@ -114,10 +114,10 @@ impl GpuScene {
         self.arrangement.centre.to_array()
     }
 
-    /// The search for triangles in shaders for these traits, which include the scene's.
-    pub(crate) fn traversal(&self, traits: &Traits) -> Traversal {
+    /// The search for triangles in shaders for these contents, which include the scene's.
+    pub(crate) fn traversal(&self, contents: &SceneContents) -> Traversal {
         match self.arrangement.facet_count() {
-            Some(count) if traits.few_triangles => Traversal::Every { triangles: count as u32 },
+            Some(count) if contents.few_triangles => Traversal::Every { triangles: count as u32 },
             _ => Traversal::Tree { stack: self.stack },
         }
     }
@@ -126,7 +126,7 @@ impl GpuScene {
     #[cfg(test)]
     pub(crate) fn use_trees(&mut self) {
         self.arrangement.few = None;
-        self.traits.few_triangles = false;
+        self.contents.few_triangles = false;
     }
 
     /// The resource behind a binding of shaders/shared/scene.wgsl or blinn_phong.wgsl.

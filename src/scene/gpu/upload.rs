@@ -49,7 +49,7 @@ impl Buffers {
             scene: buffer(device, "scene", bytemuck::bytes_of(header), BufferUsages::UNIFORM),
             geometry: folded(device, queue, "geometry", geometry),
             attributes: storage(device, "normals and texture coordinates", attributes, 4),
-            images: Images::new(device, queue, images, assembly.traits.folded_images),
+            images: Images::new(device, queue, images, assembly.contents.folded_images),
             materials: folded(device, queue, "materials", materials),
             lights: folded(device, queue, "lights", &assembly.arrangement.lights.table),
             sky: sky.as_ref().map(|(environment, table)| Sky::new(device, queue, environment, table)),

@@ -153,7 +153,7 @@ fn six_images_of_4096_texels_a_side_fit_the_default_limits() {
     let settings = Settings { mode: Mode::Noisy, ..Settings::adaptive() };
     let mut stage = Stage::new(scene, SIZE, settings);
     stage.camera = Some(from_above());
-    assert!(stage.uploaded.traits().folded_images);
+    assert!(stage.uploaded.contents().folded_images);
     let picture = stage.frame().image();
     let linear = |c: u8| ((f64::from(c) / 255.0 + 0.055) / 1.055).powf(2.4);
     for i in 0..COUNT {

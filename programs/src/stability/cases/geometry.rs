@@ -116,7 +116,9 @@ pub const CASES: &[Case] = &[
         bound: ROUNDING,
         origin: ORIGIN,
         measure: counts,
-        breaks: Breaks::Known("none: 10⁶ triangles at one point make a tree too, see the tests of `src/scene/gpu/tree/build.rs`"),
+        breaks: Breaks::Known(
+            "none: 10⁶ triangles at one point make a tree too, see the tests of `src/scene/gpu/tree/build.rs`",
+        ),
     },
     Case {
         name: "eyes and rays in awkward places",

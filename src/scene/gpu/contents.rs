@@ -1,11 +1,11 @@
 //! The parts of the shaders that a scene needs.
 
 use super::geometry::attributes::Layout;
-use crate::plan::Traits;
+use crate::plan::SceneContents;
 use crate::scene::description::{Alpha, Material, Scene};
 
-/// Collects the traits that materials and meshes in use require of the shaders.
-pub(crate) fn traits(scene: &Scene, layout: Layout) -> Traits {
+/// Collects the contents that materials and meshes in use require of the shaders.
+pub(crate) fn contents(scene: &Scene, layout: Layout) -> SceneContents {
     let used = || {
         let placed: Vec<usize> = scene.nodes.iter().flat_map(|n| n.meshes.iter().copied()).collect();
         scene
@@ -15,7 +15,7 @@ pub(crate) fn traits(scene: &Scene, layout: Layout) -> Traits {
             .filter(move |(i, _)| placed.contains(i))
             .map(|(_, m)| &scene.materials[m.material])
     };
-    Traits {
+    SceneContents {
         textures: used().any(|m| m.textures().next().is_some()),
         shading_normals: layout.normals,
         vertex_colors: layout.color.is_some(),

@@ -2,7 +2,7 @@
 
 /// The contents of a scene. Everything that is absent is left out of the shaders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Traits {
+pub struct SceneContents {
     /// Meshes move or repeat: two levels of trees.
     pub instanced: bool,
     /// Materials have textures.
@@ -37,7 +37,7 @@ pub struct Traits {
     pub views: bool,
 }
 
-impl Traits {
+impl SceneContents {
     /// Everything that the materials and lights of a scene with this layout in memory can have.
     #[must_use]
     pub fn everything(self) -> Self {
@@ -58,7 +58,7 @@ impl Traits {
 
 /// The contents of a host's views. Everything that is absent is left out of the shaders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct HostTraits {
+pub struct HostInputs {
     /// Normals are points of the unfolded octahedron.
     pub octahedral_normals: bool,
     /// Normals come as 0…1 instead of −1…1.
