@@ -1,18 +1,25 @@
-// History ratio ρ and λ of each stratum, from means of this frame's samples s and of the history m on three levels, from the coarsest,
-// which knows a change of the whole room with little noise, to the finest, which only has to add what differs from that.
+// History ratio ρ and λ of each stratum from the means of this frame's samples, s, and of the history, m, on three levels of a
+// pyramid. The coarsest comes first: it knows a change of the whole room with little noise. Each finer one adds what differs from
+// that.
 //
-//   d = s − ρ·m                                                           (luminances)
-//   V' = max(ρ²·V, Σ(s_i − ρ·m_i)²/N²): as the histories and as the samples know it
-//   λ ← max(λ, √max(0, d² − 6·V') / max(s, ρ·m))                          what even the coarser ratio does not explain
-//   ρ ← ρ + (ρ_level − ρ)·max(0, 1 − 6·V'/d²),  ρ_level = (s + e·ρ)/(m + e),  e = 0.05·m, per channel
+//   d = s − ρ·m                                                            (luminances)
+//   V′ = max(ρ²·V, Σ(s_i − ρ·m_i)²/N²)                                     as the histories, and as the samples know it
+//   λ ← max(λ, √max(0, d² − 6·V′) / max(s, ρ·m))                           not explained even by the coarser ratio
+//   ρ ← ρ + (ρ_level − ρ)·max(0, 1 − 6·V′/d²),  ρ_level = (s + e·ρ)/(m + e),  e = 0.05·m, per channel
 //
-// The subtractions are those of noise: d has the variance V' where nothing has changed. By the samples, d²/V' is (Σr)²/Σr² of the residuals
-// r: a number of samples that agree (Kish 1965). So no single bright path is taken for a change: by the histories alone, a still room
-// that is lit by one path in twenty became brighter by 12 %. Finer levels know their mean too badly: one of nine samples is off by a quarter.
+// Noise is subtracted because d has the variance V′ where nothing has changed. By the samples, d²/V′ is (Σr)²/Σr² of the residuals
+// r, the number of samples that agree (Kish 1965), so no single bright path counts as a change.
+//
+// Failure: by the histories alone, a still room that one path in twenty lights became brighter by 12 %. Reason: only rises
+// exceeded the noise that the histories knew. Rule: both variances. Levels finer than these three know their mean too badly: one of
+// nine samples is off by a quarter.
 
 #import asvgf::frame::frame
 #import asvgf::color::luminance
 #import asvgf::means::{Means, unpack_means}
+#ifdef HISTORY_RATIO
+#import asvgf::history_ratio::{FROM_DARK, PRIOR, beyond_limit, limited, limited_color}
+#endif
 
 @group(0) @binding(1) var samples: texture_2d<u32>;
 @group(0) @binding(2) var now_coarse: texture_2d<u32>;
@@ -26,14 +33,14 @@
 @group(0) @binding(9) var ratio_out: texture_storage_2d<rgba32uint, write>;
 #endif
 
-// Luminances below which there is nothing to compare: their squares, of which the noise is made, are still normal numbers.
+// Luminances below which there is nothing to compare: the squares that make the noise are still normal numbers.
 const DARK: f32 = 1e-17;
 
-// Times the variance that is taken for noise.
+// Variances V′ that are taken for noise. docs/filter.md compares 2, 4, 6 and 9: with 6, still images come nearest to a constant α.
 const NOISE: f32 = 6.0;
 
 struct Found {
-    // For r, g, b and luminance.
+    // ρ for red, green, blue and luminance.
     ratio: vec4<f32>,
     lambda: f32,
 }
@@ -54,14 +61,13 @@ fn refine(found: Found, means: Means) -> Found {
     let noise = max(scale * (scale * means.variance), seen);
     let lambda = max(found.lambda, sqrt(max(square - NOISE * noise, 0.0)));
 #ifdef HISTORY_RATIO
-    // What comes out of the dark has no ratio, as its quotient may be infinite.
-    if m <= 1e-6 * s {
+    // Light that comes out of the dark has no ratio, because its quotient may be infinite.
+    if m <= FROM_DARK * s {
         return Found(ratio, lambda);
     }
-    let e = frame.ratio_prior * m;
+    let e = PRIOR * m;
     let level = (s + e * ratio.w) / max(m + e, DARK);
-    let limit = frame.ratio_chroma_limit;
-    let color = clamp((means.now + e * ratio.xyz) / max(means.before + e, vec3(DARK)), vec3(level / limit), vec3(level * limit));
+    let color = limited_color((means.now + e * ratio.xyz) / max(means.before + e, vec3(DARK)), level);
     let believed = max(0.0, 1.0 - NOISE * noise / max(square, 1e-12));
     return Found(ratio + (vec4(color, level) - ratio) * believed, lambda);
 #else
@@ -81,10 +87,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var lambda = found.lambda;
 #ifdef HISTORY_RATIO
     // A history that would have to be scaled by more than the limit is worth nothing, as in gradient.wgsl.
-    let most = frame.ratio_limit;
-    lambda = max(lambda, clamp(max(2.0 - 2.0 * most * found.ratio.w, found.ratio.w / most - 1.0), 0.0, 1.0));
-    textureStore(ratio_out, stratum, bitcast<vec4<u32>>(clamp(found.ratio, vec4(1.0 / most), vec4(most))));
+    lambda = max(lambda, beyond_limit(found.ratio.w));
+    textureStore(ratio_out, stratum, bitcast<vec4<u32>>(limited(found.ratio)));
 #endif
-    // As a quotient of sums over strata, as the other gradients are.
+    // λ as the quotient of sums over strata that the other gradients are.
     textureStore(gradient_out, stratum, bitcast<vec4<u32>>(vec4(lambda, 1.0, lambda, 1.0)));
 }

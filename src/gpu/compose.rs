@@ -27,6 +27,7 @@ const SHARED: &[(&str, &str)] = &[
     ("pair_taps", include_str!("../../shaders/shared/pair_taps.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
     ("strata_taps", include_str!("../../shaders/shared/strata_taps.wgsl")),
+    ("history_ratio", include_str!("../../shaders/shared/history_ratio.wgsl")),
     ("change", include_str!("../../shaders/shared/change.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("scene", include_str!("../../shaders/shared/scene.wgsl")),

@@ -29,10 +29,7 @@ pub(crate) struct FrameUniform {
     sigma_depth: f32,
     sigma_normal: f32,
     ridge: f32,
-    ratio_limit: f32,
-    ratio_chroma_limit: f32,
-    ratio_prior: f32,
-    ratio_shrinkage: f32,
+    effective_pairs: f32,
     dead_zone: f32,
     lambda_block: u32,
     converged: f32,
@@ -40,8 +37,6 @@ pub(crate) struct FrameUniform {
     ridge_noise: f32,
     steadiness: f32,
     outlier_limit: f32,
-    // WGSL rounds a struct's size up to that of a vector.
-    padding: u32,
 }
 
 /// The constants that differ from frame to frame.
@@ -96,12 +91,7 @@ impl FrameUniform {
             sigma_depth: f.sigma_depth,
             sigma_normal: f.sigma_normal,
             ridge: f.ridge,
-            // Constants of the history ratio, from the study in docs/filter.md: clamped to ¼…4, colour to 1½ of the
-            // luminance's ratio, a prior of 5 %, and the effective number of samples in the filtered pairs.
-            ratio_limit: 4.0,
-            ratio_chroma_limit: 1.5,
-            ratio_prior: 0.05,
-            ratio_shrinkage: effective_pairs(f.ratio_iterations),
+            effective_pairs: effective_pairs(f.ratio_iterations),
             dead_zone: f.gradient_dead_zone,
             lambda_block: moment.lambda_block,
             converged: f.converged,
@@ -109,7 +99,6 @@ impl FrameUniform {
             ridge_noise: f.ridge_noise,
             steadiness: f.steadiness,
             outlier_limit: f.outlier_limit,
-            padding: 0,
         }
     }
 }
@@ -177,9 +166,8 @@ mod tests {
     fn the_frame_lies_where_the_shader_reads_it() {
         use crate::twins::layout::{assert_layout, fields};
         let fields = fields!(FrameUniform: size, strata, camera, previous, index, seed, continued, samples, batch, first_sample, bounces, roulette,
-            alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, ratio_limit,
-            ratio_chroma_limit, ratio_prior, ratio_shrinkage, dead_zone, lambda_block, converged,
-            sigma_foreshortening, ridge_noise, steadiness, outlier_limit);
+            alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, effective_pairs,
+            dead_zone, lambda_block, converged, sigma_foreshortening, ridge_noise, steadiness, outlier_limit);
         assert_layout("Frame", fields, size_of::<FrameUniform>());
     }
 }
