@@ -1,16 +1,18 @@
-// One iteration of the edge-stopping à-trous wavelet filter (Dammertz et al. 2010) with variance-guided luminance weights
-// (Schied et al. 2017): l̂(p) = Σ h·w·l(q) / Σ h·w over taps `stride` pixels apart.
+// One iteration of the edge-stopping à-trous wavelet filter (Dammertz et al. 2010) with variance-guided luminance weights (Schied
+// et al. 2017):
 //
-// Taps are written out one by one and without branches: on a software adapter a loop costs 40 % more, and a branch is
-// executed either way.
+//   l̂(p) = Σ h·w·l(q) / Σ h·w   over taps q that are `stride` pixels apart
+//
+// Taps are written out one by one and without branches. On a software adapter a loop costs 40 % more, and a branch is executed
+// either way.
 
 #import asvgf::frame::{frame, inside, scale_at}
 #import asvgf::color::luminance
 #import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb, pack_tap, tap_color, tap_variance}
-#import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance, foreshortening}
+#import asvgf::edge_stop::{falloff, Plane, facing, tangent_plane, plane_distance, foreshortening}
 
 @group(0) @binding(1) var<uniform> stride: i32;
-// Normal and depth; demodulated radiance and deviation of its luminance.
+// `guide`: normal and depth. `color`: demodulated radiance and the deviation of its luminance.
 #ifdef STORAGE_READS
 @group(0) @binding(2) var guide: texture_storage_2d<rg32uint, read>;
 @group(0) @binding(3) var color: texture_storage_2d<rg32uint, read>;
@@ -20,18 +22,20 @@
 #endif
 @group(0) @binding(5) var color_out: texture_storage_2d<rg32uint, write>;
 #ifdef FEEDBACK
-// The next frame's history of the colour.
+// The colour of the next frame's history.
 @group(0) @binding(6) var feedback_out: texture_storage_2d<rg32uint, write>;
 #endif
 
 struct Center {
-    // The plane's slopes over the tolerated distance.
+    // The tangent plane, its slopes in units of the tolerated distance.
     plane: Plane,
-    // Normal over 511, to match `unpack_normal_511`.
+    // The normal over 511, to match `unpack_normal_511`.
     normal: vec3<f32>,
+    // Luminance.
     own: f32,
+    // Variance of the luminance; with CLASSIC_STOPS, the factor on a difference of luminances.
     variance: f32,
-    // Of one stride, for the depth stop of the talk.
+    // Depth gradient per stride, for the classic depth stop.
     depth_gradient: vec2<f32>,
 }
 
@@ -69,7 +73,7 @@ fn tap_at(pixel: vec2<i32>) -> Tap {
 #endif
 }
 
-// A tap; its depth is 0, so that there is no surface, outside the image.
+// Reads a tap. Outside the image its depth is 0, so that there is no surface.
 fn load(pixel: vec2<i32>, offset: vec2<i32>) -> Tap {
     let place = pixel + offset * stride;
     var tap = tap_at(place);
@@ -77,7 +81,12 @@ fn load(pixel: vec2<i32>, offset: vec2<i32>) -> Tap {
     return tap;
 }
 
-// `slant` is the exponent of the foreshortening stop in the tap's direction.
+#ifdef CLASSIC_STOPS
+// ε of the classic depth stop, in parts of the depth: the distance that a surface seen face on (∇z = 0) is allowed.
+const CLASSIC_DEPTH: f32 = 1e-3;
+#endif
+
+// Adds a tap, weighted by the kernel and the stops. `slant` is the exponent of the foreshortening stop in the tap's direction.
 fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, kernel: f32, slant: f32) {
     let depth = tap.depth;
     let sample = tap_color(tap.color);
@@ -85,14 +94,14 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, ke
     let cosine = dot(c.normal, unpack_normal_511(tap.normal));
     let difference = luminance(sample) - c.own;
 #ifdef CLASSIC_STOPS
-    // The talk's three stops. ∇z is that of the tangent plane, exact where differences of neighbours are not; the ε of
-    // 0.1 % of the depth is what a surface seen face on (∇z = 0) is allowed.
-    let slope = abs(dot(c.depth_gradient, vec2<f32>(offset))) * frame.sigma_depth + 1e-3 * c.plane.depth;
+    // The stops of Schied et al. 2017 (§4.4), as Basci 2025 has them. ∇z is that of the tangent plane, exact where differences of
+    // neighbours are not.
+    let slope = abs(dot(c.depth_gradient, vec2<f32>(offset))) * frame.sigma_depth + CLASSIC_DEPTH * c.plane.depth;
     let exponent = abs(depth - c.plane.depth) / slope + abs(difference) * c.variance;
-    // Above 0, as pow(0, 0) may be anything, and σ = 0 is to stop nothing.
+    // The cosine's base is above 0: pow(0, 0) may be anything, but σ = 0 shall stop nothing.
     let w = kernel * pow(clamp(cosine, 1e-9, 1.0), frame.sigma_normal) * exp(-exponent);
 #else
-    // Squared difference less the noise that both ends are known to have: what is left is signal.
+    // The squared difference less the noise that both ends are known to have leaves the signal.
     let noise = c.variance + sample_variance;
     let excess = difference * difference - (c.variance + min(c.variance, sample_variance));
     let exponent = slant + plane_distance(c.plane, vec2<f32>(offset), depth) + frame.sigma_normal * (1.0 - cosine)
@@ -120,13 +129,22 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, ke
 
 #ifdef LOCAL_LINEAR_FIT
 #ifdef RIDGE_BY_NOISE
-// Limits of the ridge, as factors on `frame.ridge`. Lower: the plane follows noise of which the taps' variances say nothing. Higher: it is the mean.
+// Limits of the ridge, as factors on `frame.ridge`. Below the lower one the plane follows noise of which the taps' variances say
+// nothing; above the upper one it is the mean.
 const RIDGE_LEAST: f32 = 0.5;
 const RIDGE_MOST: f32 = 8.0;
 #endif
 
-// The value at the centre of the plane that fits the taps best, with a ridge on its slopes: a weighted mean lags behind on
-// a slope wherever its taps are lopsided, at borders and penumbrae; the plane does not. Kept within ½…1½ of the mean.
+// Determinant of the normal equations up to which the taps lie on a line and define no plane. The ridge alone makes it ridge².
+const NO_PLANE: f32 = 1e-6;
+
+// The fitted value stays within these factors of the mean.
+const FIT_LEAST: f32 = 0.5;
+const FIT_MOST: f32 = 1.5;
+
+// Value at the centre of the plane that fits the taps best (weighted least squares), with a ridge on its slopes. Failure: a
+// weighted mean lags behind on a slope wherever its taps are lopsided, at borders and penumbrae. Reason: their centre of gravity is
+// not the pixel. Rule: fit a plane.
 fn fit(sums: Sums) -> vec3<f32> {
     let scale = 1.0 / sums.weight;
     let mean = sums.color * scale;
@@ -135,7 +153,7 @@ fn fit(sums: Sums) -> vec3<f32> {
     let y = sums.color_y * scale - m.y * mean;
     var ridge = frame.ridge;
 #ifdef RIDGE_BY_NOISE
-    // The plane follows a slope only where it exceeds its own noise: the ridge is in proportion to the slope's variance over its square.
+    // The plane shall follow a slope a only where that exceeds its own noise, so the ridge grows with V(a)/|a|².
     let noise = (sums.variance_spread - 2.0 * dot(m, sums.variance_offset) + dot(m, m) * sums.variance) * scale * scale;
     let slope = vec2(luminance(x), luminance(y));
     ridge *= clamp(frame.ridge_noise * max(noise, 0.0) / (dot(slope, slope) + 1e-37), RIDGE_LEAST, RIDGE_MOST);
@@ -144,11 +162,11 @@ fn fit(sums: Sums) -> vec3<f32> {
     let xy = sums.spread.y * scale - m.x * m.y;
     let yy = sums.spread.z * scale - m.y * m.y + ridge;
     let determinant = xx * yy - xy * xy;
-    if determinant <= 1e-6 {
+    if determinant <= NO_PLANE {
         return mean;
     }
     let value = mean - (m.x * (yy * x - xy * y) + m.y * (xx * y - xy * x)) / determinant;
-    return clamp(value, 0.5 * mean, 1.5 * mean);
+    return clamp(value, FIT_LEAST * mean, FIT_MOST * mean);
 }
 #endif
 
@@ -168,7 +186,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own_color = tap_color(own.color);
     let own_variance = tap_variance(own.color);
 #ifdef FIRST_ITERATION
-    // 3×3 Gaussian: one pixel's variance is itself a noisy estimate. Later iterations have averaged it already.
+    // 3×3 Gaussian (Schied et al. 2017, §4.4): one pixel's variance is itself a noisy estimate. Later iterations have averaged it
+    // already.
     let edges = vec4(
         tap_variance(west.color), tap_variance(east.color), tap_variance(north.color), tap_variance(south.color));
     let corners = vec4(
@@ -182,10 +201,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let variance = own_variance;
 #endif
     let own_luminance = luminance(own_color);
-    // A filter blurs by about as much as the noise that it is told of: below some noise it does more harm than good.
+    // A filter blurs by about as much as the noise that it is told of. Below `frame.converged` that does more harm than good, so
+    // the pixel stays as it is.
     let converged = variance <= frame.converged * frame.converged * own_luminance * own_luminance;
 #ifndef STORAGE_READS
-    // Tiles of sky, and of what has converged, are spared their taps. (A CPU executes both sides of a branch.)
+    // Tiles of sky, and of pixels that have converged, skip their taps. A CPU executes both sides of a branch, so it has none.
     if converged || depth <= 0.0 {
         store(pixel, own_color, sqrt(own_variance), depth > 0.0);
         return;
@@ -194,7 +214,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let normal = unpack_normal(own.normal);
     var plane = tangent_plane(vec2<f32>(pixel), normal, depth);
 #ifdef CLASSIC_STOPS
-    let gradient = -depth * plane.slope.yz / select(plane.slope.x, -1e-4, abs(plane.slope.x) < 1e-4);
+    let gradient = -depth * plane.slope.yz / facing(plane);
     let slant = vec4(0.0);
 #ifdef FULL_KERNEL
     let oblique = vec4(0.0);
@@ -266,7 +286,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     store(pixel, select(filtered, own_color, converged), select(deviation, sqrt(own_variance), converged), depth > 0.0);
 }
 
-// A miss is carried on as it is: it filters nothing, and what comes of it is not kept.
+// Stores a pixel. A miss takes the same way as a surface: no pixel filters with it, and its result is not kept.
 fn store(pixel: vec2<i32>, color: vec3<f32>, deviation: f32, seen: bool) {
     textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(color, deviation), seen), 0u, 0u));
 #ifdef FEEDBACK

@@ -1,18 +1,19 @@
-// What each stratum shows of a change where no path was repeated: the mean of its new samples beside the mean of their reprojected
-// histories, and how far the two may differ by noise alone.
+// The evidence of change in each stratum where no path was repeated: the mean of its new samples beside the mean of their
+// reprojected histories, and how far the two may differ by noise alone.
 //
 // Failure: a renderer that hands in an image and a G-buffer has no pairs, and a constant α lags behind its light. Reason: a single
-// sample says nothing about change, as its noise is larger. Rule: compare means over many, on one surface, of which both variances are
-// known.
+// sample tells nothing about change, because its noise is larger. Rule: compare means of many samples on one surface, with the
+// variances of both.
 //
 //   s = mean of the new samples, m = mean of the histories, over the N pixels of the stratum that see the surface of its reference
-//   V = Σ(v + v/n)/N², the variance of s − m in luminance; v that of a sample, as the history has it, n its length
+//   V = Σ(v + v/n)/N²: variance of s − m in luminance, where v is that of a sample, from its history, and n the history length
 //
-// The reference is the first pixel with a history, from the centre on. A history of one sample says nothing about v: until n is 5, a
+// The reference is the first pixel with a history, from the centre on. A history of one sample knows nothing of v: until n is 5, a
 // deviation of twice the mean is mixed in.
 
 #import asvgf::frame::{frame, inside, sample_point, seen_position, scale_at}
 #import asvgf::color::luminance
+#import asvgf::history::unbiased
 #import asvgf::history_taps::{History, bilinear_taps, mean_of, motion_of, origin_at}
 #import asvgf::means::{Means, pack_before, pack_now, scaled}
 #import asvgf::packing::{unpack_normal, unpack_rgb}
@@ -35,17 +36,17 @@
 @group(0) @binding(10) var now_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(11) var before_out: texture_storage_2d<rgba32uint, write>;
 
-// Deviation of a sample, in means, of which nothing is known.
+// Deviation of a sample of which nothing is known, in parts of its mean.
 const PRIOR_DEVIATION: f32 = 2.0;
 
-// Samples after which the history's own variance is believed.
+// History length at which the history's own variance is believed.
 const KNOWN: f32 = 5.0;
 
-// The variance of one sample's luminance: unbiased, and not below what a short history can know.
+// Variance of one sample's luminance: unbiased, and mixed with the prior's while the history is short.
 fn sample_variance(history: History, n: f32) -> f32 {
     let prior = PRIOR_DEVIATION * history.mean;
-    let unbiased = history.variance * select(1.0, n / max(n - 1.0, 0.5), n < 8.0);
-    return mix(prior * prior, unbiased, min((n - 1.0) / (KNOWN - 1.0), 1.0));
+    let own = unbiased(history.variance, n);
+    return mix(prior * prior, own, min((n - 1.0) / (KNOWN - 1.0), 1.0));
 }
 
 @compute @workgroup_size(8, 8)
@@ -92,7 +93,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let l = luminance(sample);
         let l_before = luminance(history.color);
 #ifdef OUTLIERS
-        // What temporal.wgsl does not believe is no change either.
+        // A sample that temporal.wgsl does not believe is no sign of change either.
         if ratio_to(bound(max(l_before, max(believed.expected, believed.level)), history.length), l) > believed.ratio {
             continue;
         }

@@ -1,15 +1,19 @@
-// Blends the last output into this one: what is averaged over frames in the history still moves as 1/n, and what the spatial filter makes
-// of it moves with its weights. The eye sees such a shimmer before it sees an error.
+// Blends the last output into this one. A running mean still moves as 1/n, and what the spatial filter makes of it moves with its
+// weights; the eye sees such a shimmer before it sees an error.
 //
-//   O = C + b·(clamp(ρ·O', lo, hi) − C),  lo = max(min(μ − 1.5·s, C), C − 2·σ),  hi = min(max(μ + 1.5·s, C), C + 2·σ)
+//   O = C + b·(clamp(ρ·O′, lo, hi) − C),  lo = max(min(μ − 1.5·s, C), C − 2·σ),  hi = min(max(μ + 1.5·s, C), C + 2·σ)
 //
-// with the filtered colour C, the last output O' where the surface was, rescaled by the history ratio ρ, the deviation σ of the noise that is
-// left in C, and mean and deviation μ, s of C over those of the 3×3 pixels that see the same surface and are at most twice or half as
-// bright. b is the weight that temporal.wgsl found. Nothing of O enters the history, so that no blur can build up.
+//   C  filtered colour
+//   O′ last output where the surface was, rescaled by the history ratio ρ
+//   b  weight of the last output, see `steadiness` in temporal.wgsl
+//   σ  deviation of the noise that is left in C
+//   μ, s  mean and deviation of C over the 3×3 pixels that see the same surface and are at most twice or half as bright
 //
-// Why so narrow: a cold start blurs what it does not know yet. Were a highlight within its neighbours' bounds, or nothing asked of the
-// noise, that blur would stay for a dozen frames, beside a sun as bright as a lamp. C itself is within, as a steady highlight of one pixel
-// would otherwise lose a third.
+// O is kept for the next frame's O′ and never enters the history, so no blur builds up.
+//
+// Failure: what a cold start had blurred of a highlight stayed for a dozen frames, a halo as bright as a lamp beside a sun. Reason:
+// the bounds held the highlight, and did not ask for the noise. Rule: bounds from pixels that are alike, and no farther than 2·σ. C
+// itself is always within, because a steady highlight of one pixel would otherwise lose a third.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
@@ -39,17 +43,17 @@ fn color_at(pixel: vec2<i32>) -> vec2<u32> {
     return textureLoad(color, pixel, 0).xy;
 }
 #endif
-// Last output, reprojected, and its weight.
+// The last output, reprojected, and its weight b.
 @group(0) @binding(3) var reprojected: texture_2d<u32>;
 @group(0) @binding(4) var output_out: texture_storage_2d<rg32uint, write>;
 
-// Deviations of the neighbourhood within which the last output is believed.
+// Deviations s of the neighbourhood within which the last output is believed.
 const DEVIATIONS: f32 = 1.5;
 
-// Deviations of the noise that is left in C.
+// Deviations σ of the noise within which the last output is believed. docs/filter.md compares 2, 4 and 8.
 const NOISE: f32 = 2.0;
 
-// Ratio of luminances up to which two pixels are taken for one neighbourhood.
+// Greatest ratio of two luminances that belong to one neighbourhood.
 const ALIKE: f32 = 2.0;
 
 @compute @workgroup_size(8, 8)
@@ -60,7 +64,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = tap_color(here);
     let own_brightness = luminance(own);
     let normal = unpack_normal(g.x);
-    // As differences from the own colour, of which the squares do not cancel.
+    // Moments of the differences from the own colour, so that their squares do not cancel.
     var sum = vec3(0.0);
     var squares = vec3(0.0);
     var count = 1.0;

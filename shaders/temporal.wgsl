@@ -1,12 +1,15 @@
-// Reprojects the history and blends this frame into it: a running average of 1/n that the temporal gradient shortens.
+// Reprojects the history and blends this frame into it: a running mean of weight 1/n, which the temporal gradient shortens.
 //
-// The history is a colour, the variance of a sample's luminance, and the history length n (history.wgsl). The mean
-// luminance is that of the colour, unless the colour is fed from the spatial filter (FEEDBACK): then it takes the colour's
-// place, as a grey.
+// The history is a colour, the variance of a sample's luminance, and the history length n (history.wgsl). The mean luminance is
+// that of the colour. With FEEDBACK the colour comes from the spatial filter instead, and the history holds the mean luminance in
+// the colour's place, as a grey.
 //
-// n counts what the average is worth, in samples of weight 1: Var(mean) = Var(sample)/n (Kish 1965). A weight α on the new
-// sample makes of n: 1/n' = (1 − α)²/n + α². That is n + 1 for α = 1/(n + 1), and tends to (2 − α)/α for a constant α: counted
-// in frames instead, the spatial filter would take the noise of a constant α for gone.
+// n is the effective number of samples: Var(mean) = Var(sample)/n (Kish 1965). A new sample of weight α makes of it
+//
+//   1/n′ = (1 − α)²/n + α²
+//
+// That is n + 1 for α = 1/(n + 1), and it tends to (2 − α)/α for a constant α. If n counted frames instead, the spatial filter
+// would take the noise of a constant α for gone.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
@@ -32,7 +35,7 @@
 #ifdef STILL
 #import asvgf::history_taps::own_history
 #else
-#import asvgf::history_taps::{Taps, add_tap, bilinear_taps, corner_of, mean_of, motion_of, origin_at}
+#import asvgf::history_taps::{LEAST_WEIGHT, TapSum, add_tap, bilinear_taps, corner_of, mean_of, motion_of, origin_at}
 #import asvgf::reproject::Origin
 #endif
 #ifdef EXTERNAL_LAMBDA
@@ -62,7 +65,7 @@
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rg32uint, write>;
 #ifdef STEADY
-// The last output where the surface was, rescaled as the history is, and its weight in this one, see steady.wgsl.
+// The last output at the surface's former place, rescaled as the history is, and its weight in this frame's output, see steady.wgsl.
 @group(0) @binding(16) var reprojected_out: texture_storage_2d<rg32uint, write>;
 #endif
 #ifdef OUTLIERS
@@ -75,12 +78,19 @@
 #endif
 
 #ifdef STEADY
-// How much of the last output is blended into this one: with k frames before this one k/(k + 1), as in a mean of all outputs, up to a limit,
-// beyond which it lags. Nothing where the light has changed: as far as λ says so, and where the history ratio is off 1 by a 20th.
-// Between pixels a bilinear tap blurs, in each frame anew: there it counts less, and in the middle of four not at all.
+// The last output has no weight once the history ratio of the luminance is off 1 by 1/20.
+const RATIO_SHARPNESS: f32 = 20.0;
+
+// Weight b of the last output in this one:
+//
+//   b = min(steadiness, (1 − λ)²·max(0, 1 − 20·|ρ_l − 1|)·k/(k + 1))·max(0, 1 − 2·Σf·(1 − f)),  k = n − 1
+//
+// k/(k + 1) is the weight in a mean of all outputs; the limit `steadiness` bounds the lag. λ and the history ratio ρ say where the
+// light has changed. f are the fractions of the motion in pixels: a bilinear tap between pixels blurs, in each frame anew, so the
+// weight falls to 0 in the middle of four.
 fn steadiness(lambda: f32, ratio: f32, length: f32, motion: vec2<f32>) -> f32 {
     let k = max(length - 1.0, 0.0);
-    let unchanged = (1.0 - lambda) * (1.0 - lambda) * max(1.0 - 20.0 * abs(ratio - 1.0), 0.0);
+    let unchanged = (1.0 - lambda) * (1.0 - lambda) * max(1.0 - RATIO_SHARPNESS * abs(ratio - 1.0), 0.0);
     let f = fract(motion);
     let between = 2.0 * dot(f, vec2(1.0) - f);
     return min(unchanged * k / (k + 1.0), frame.steadiness) * max(1.0 - between, 0.0);
@@ -88,20 +98,25 @@ fn steadiness(lambda: f32, ratio: f32, length: f32, motion: vec2<f32>) -> f32 {
 #endif
 
 #ifndef STILL
+// Taps of the search around a point where no surface lies under the 2×2 taps: 4×4, one pixel farther on each side, with weights
+// e^(−d²).
+const SEARCH: i32 = 16;
+
+// The history at the place where the pixel's surface was.
 fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> History {
     let point = vec2<f32>(pixel) + m.xy;
     var sum = bilinear_taps(origin, point);
-    // Where nothing of the surface lies under the 2×2 taps, look one pixel farther. The loop's length depends on that, as a
-    // software adapter executes a branch either way, but not a loop.
+    // The search is a loop of length 0 elsewhere, and not a branch, because a software adapter executes a branch either way.
 #ifdef MISSING_SAMPLES
-    // Taps without a history are no reason: what is borrowed from farther away would stay, frame by frame farther in.
+    // Taps on the surface that have no history do not start a search: a history borrowed from farther away would stay and move
+    // farther in from frame to frame.
     let surface = sum.surface;
 #else
     let surface = sum.weight;
 #endif
-    let searched = select(0, 16, seen && surface <= 0.01);
+    let searched = select(0, SEARCH, seen && surface <= LEAST_WEIGHT);
     if searched > 0 {
-        sum = Taps();
+        sum = TapSum();
     }
     let base = corner_of(point);
     for (var i = 0; i < searched; i++) {
@@ -113,22 +128,23 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> Hist
 }
 #endif
 
-// The part of a history's length that is kept. Above 0, as pow(0, 0) may be anything and a power of 0 is to shorten nothing.
+// The part of a history's length that is kept: (1 − λ)^k. Failure: pow(0, 0) may be anything, but a power of 0 shall shorten
+// nothing. Rule: the base stays above 0.
 fn kept_part(lambda: f32) -> f32 {
     return pow(max(1.0 - lambda, 1e-9), frame.history_power);
 }
 
 #ifdef OUTLIERS
-// How far a sample is believed.
+// The belief in a sample (outliers.wgsl).
 struct Belief {
-    // Weight of the sample, 0…1: (R·B/l)² above its bound R·B. Brought down to that alone, outliers would still brighten a surface; with
-    // a weight of its own too, one far above does nothing, and one just above is light.
+    // Weight of the sample, 0…1: (R·B/l)² if its luminance l is above the bound R·B. Brought down to R·B alone, outliers would
+    // still brighten a surface; with this weight too, one far above does nothing, and one just above is light.
     weight: f32,
-    // What brings its luminance down to the bound.
+    // Factor that brings its luminance down to R·B.
     scale: f32,
-    // Seen so often running that the history must be wrong.
+    // True if it was seen in so many frames running that the history must be wrong.
     confirmed: bool,
-    // Mean luminance around.
+    // Mean luminance of the samples around.
     around: f32,
 }
 
@@ -140,11 +156,11 @@ fn belief_in(pixel: vec2<u32>, l: f32, level: f32, length: f32, lambda: f32) -> 
     let base = select(known, believed.level, length <= 0.0);
     let ratio = ratio_to(bound(base, length), l);
     let over = ratio > believed.ratio;
-    // Outliers are rare: a pixel that is seen so many times running, or a stratum in which some pixel is, is lit.
+    // Outliers are rare, so light that stays is light: the same pixel in so many frames running, or any pixel of the same stratum.
     let confirmed = (is_at(candidate.place, pixel) && candidate.sightings == believed.sightings) || (over && candidate.running >= believed.sightings);
     var scale = select(1.0, believed.ratio / max(ratio, 1e-9), over && !confirmed);
 #ifdef EXTERNAL_LAMBDA
-    // The host knows better: where it drops the history, its sample is all there is.
+    // The host's λ comes first: where it drops the history, this sample is all there is.
     scale = mix(scale, 1.0, lambda);
 #endif
     return Belief(scale * scale, scale, confirmed, believed.level);
@@ -152,7 +168,7 @@ fn belief_in(pixel: vec2<u32>, l: f32, level: f32, length: f32, lambda: f32) -> 
 #endif
 
 #ifdef EXTERNAL_LAMBDA
-// λ as the host knows it. What is not a number tells nothing.
+// The host's λ; 0 if it is not a finite number, because such a number tells nothing.
 fn lambda_at(pixel: vec2<u32>) -> f32 {
     let value = textureLoad(external_lambda, pixel / frame.lambda_block, 0).x;
 #ifdef CONFIDENCE
@@ -169,7 +185,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
     let g = textureLoad(guide, pixel, 0).xy;
     let depth = bitcast<f32>(g.y);
-    // A miss is carried on like a surface, and what comes of it is not kept.
+    // A miss takes the same way as a surface, and its result is not stored.
     let seen = depth > 0.0;
     let normal = unpack_normal(g.x);
     let arrived = sample_at(pixel, seen);
@@ -214,7 +230,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     level = max(level, luminance(history.output));
 #endif
     let belief = belief_in(id.xy, l, level, history.length, lambda);
-    // Without a history, what is not believed is as bright as what is around.
+    // Without a history, the part of a sample that is not believed is replaced by the mean luminance around.
     let first = mix(min(belief.around, l) / max(l, 1e-37), belief.scale, belief.weight);
     var color = sample * first;
     var mean = l * first;
@@ -233,7 +249,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var mean_before = history.mean;
         var variance_before = history.variance;
         var ratio = vec4(1.0);
-        // A still image's history may be longer than the settings allow in one that moves.
+        // The history of an image that stood still may be longer than the settings allow in one that moves.
         var kept = min(history.length, frame.max_history);
 #ifdef HISTORY_RATIO
         ratio = change.ratio;
@@ -249,7 +265,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
         length = min(kept + 1.0, frame.max_history);
 #ifdef BLEND_BY_LAMBDA
-        // α' = (1 − λ)·α + λ, as the talk and the paper have it, and never less than what the shortened history asks for.
+        // α′ = (1 − λ)·α + λ (Schied et al. 2018; Basci 2025), and never below what the shortened history asks for.
         let base = max(1.0 / (history.length + 1.0), frame.alpha);
         alpha = max((1.0 - lambda) * base + lambda, 1.0 / (kept + 1.0));
 #else
@@ -262,8 +278,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         length = select(mix(kept, length, belief.weight), 1.0, belief.confirmed);
 #endif
 #ifdef IN_PLACE
-        // The gradient's sample is not new: averaged in, it would count twice (noise ×1.11). Only where it replaces what λ
-        // drops does it count.
+        // Failure: the noise was 1.11 times as large. Reason: the gradient's sample repeats a path that the history already holds,
+        // so averaged in it counts twice. Rule: it has the weight λ, with which it replaces what λ drops.
         if is_sample_pixel(textureLoad(samples, stratum_of(id.xy), 0), id.xy) {
             alpha = lambda;
             length = max(kept, 1.0);
@@ -273,15 +289,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
 #endif
 #ifdef MISSING_SAMPLES
-        // The history goes on unchanged, unless λ has left nothing of it. An infinite sample alone is a firefly; with each, the history
-        // is worth half as much, so that a sun is shown in the end.
+        // Without a sample the history goes on unchanged, unless λ has left nothing of it. A single infinite sample is a firefly;
+        // each one halves the history's length, so that a sun is shown in the end.
         let trusted = kept * select(0.5, 1.0, is_missing(arrived));
         alpha = select(0.0, alpha, sampled);
         length = select(select(0.0, max(trusted, 1.0), trusted > 0.5), length, sampled);
 #endif
         alpha = clamp(alpha, 0.0, 1.0);
         color = before + alpha * (sample - before);
-        // Running mean and variance with weight α (West 1979): nothing is subtracted from m₂, so nothing cancels.
+        // Running mean and variance with weight α (West 1979). No term is subtracted from the second moment, so nothing cancels.
         let deviation = l - mean_before;
         mean = mean_before + alpha * deviation;
         variance = (1.0 - alpha) * (variance_before + alpha * deviation * deviation);
@@ -291,7 +307,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     }
 #ifdef MISSING_SAMPLES
-    // An infinite sample without a history is kept as a colour of length 0, to be shown.
+    // An infinite sample without a history is stored as a colour of length 0, so that it is shown.
     let shown = length <= 0.0 && !is_missing(arrived);
     color = select(color, unpack_rgb(arrived), shown);
     mean = select(mean, luminance(unpack_rgb(arrived)), shown);
@@ -327,7 +343,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef KEEP_WEIGHTS
     var weights = vec2(alpha, lambda);
 #ifdef OUTLIERS
-    // Below zero, for a view of outliers.
+    // A negative α marks an outlier for its view.
     weights.x = select(alpha, -max(alpha, 1e-30), outlier);
 #endif
     textureStore(weights_out, pixel, vec4(select(vec2(0.0), weights, seen), 0.0, 0.0));

@@ -1,9 +1,9 @@
-// What the spatial filter starts from: the history's colour and how uncertain it is. While a pixel's history is short its own
-// variance means little: it is estimated from the neighbours instead (Schied et al. 2017, §4.2).
+// Prepares the spatial filter's input: the history's colour and the deviation of its luminance. A short history's own variance means
+// little, so it is replaced by that of the neighbours on the same surface (Schied et al. 2017, §4.2).
 
 #import asvgf::frame::{frame, inside, scale_at}
 #import asvgf::color::luminance
-#import asvgf::history::{history_color, history_variance, history_length}
+#import asvgf::history::{history_color, history_variance, history_length, unbiased}
 #import asvgf::packing::{unpack_normal, pack_tap}
 #ifdef FEEDBACK
 #import asvgf::packing::unpack_rgb
@@ -17,18 +17,31 @@
 #endif
 @group(0) @binding(4) var color_out: texture_storage_2d<rg32uint, write>;
 
-// History length below which the variance is a spatial one.
-const SHORT: f32 = 4.0;
+// History length below which the variance is estimated from neighbours: four frames (Schied et al. 2017, §4.2).
+const SHORT_HISTORY: f32 = 4.0;
 
-// Falls off with the distance from the plane in 2 % of the depth, and with 64·(1 − n·n').
-fn weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<u32>) -> f32 {
+// Weight of a neighbour: falloff(d/(0.02·z) + 64·(1 − n·n′)), where d is its distance from the tangent plane, z the depth and n, n′
+// the normals. e^(−64·(1 − n·n′)) is about (n·n′)⁶⁴; SVGF's normal stop has the exponent 128 (Schied et al. 2017, §4.4).
+const PLANE_TOLERANCE: f32 = 0.02;
+const NORMAL_SHARPNESS: f32 = 64.0;
+
+fn neighbour_weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<u32>) -> f32 {
     let depth = bitcast<f32>(g.y);
     if depth <= 0.0 {
         return 0.0;
     }
-    let exponent = plane_distance(plane, vec2<f32>(offset), depth) / (0.02 * scale_at(frame.camera, plane.depth))
-        + 64.0 * (1.0 - dot(normal, unpack_normal(g.x)));
+    let exponent = plane_distance(plane, vec2<f32>(offset), depth) / (PLANE_TOLERANCE * scale_at(frame.camera, plane.depth))
+        + NORMAL_SHARPNESS * (1.0 - dot(normal, unpack_normal(g.x)));
     return falloff(exponent);
+}
+
+// Pixels of the 7×7 window (Schied et al. 2017, §4.2).
+const WINDOW: i32 = 49;
+
+// Offset of pixel i of the window, row by row. (i·37) >> 8 is i / 7 for i < 49: a software adapter divides integers one by one.
+fn window_offset(i: i32) -> vec2<i32> {
+    let row = (i * 37) >> 8u;
+    return vec2(i - 7 * row, row) - 3;
 }
 
 fn mean_luminance(h: vec2<u32>) -> f32 {
@@ -48,26 +61,32 @@ fn color_at(pixel: vec2<i32>, h: vec2<u32>) -> vec3<f32> {
 }
 
 #ifdef MISSING_SAMPLES
-// Pixels on the surface that are enough to fill one from.
+// Sum of weights from which on the window holds enough pixels of the surface to fill one from.
 const ENOUGH: f32 = 6.0;
 
-// A pixel that has neither a sample nor a history: the mean over 7×7 pixels on its surface, 1, 3 or 9 apart, as far as it takes to
-// find enough. Black where there is none. The loops have no round elsewhere.
+// Sum of weights up to which there is nothing to fill one from.
+const LEAST_WEIGHT: f32 = 1e-3;
+
+// Farthest spacing of the window's pixels: it grows from 1 by 3.
+const FARTHEST_SPACING: i32 = 9;
+
+// Fills a pixel that has neither a sample nor a history: the mean over the window's pixels on its surface. The window is spread to
+// a spacing of 3, then 9, until enough pixels are on the surface. The result is black where there is none. A pixel that is not
+// `missing` runs no round of the loops.
 fn filled(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, missing: bool) -> vec2<u32> {
     var color = vec3(0.0);
     var square = 0.0;
     var weights = 0.0;
-    let farthest = select(0, 9, missing);
+    let farthest = select(0, FARTHEST_SPACING, missing);
     for (var spacing = 1; spacing <= farthest; spacing *= 3) {
-        let taps = select(0, 49, weights < ENOUGH);
+        let taps = select(0, WINDOW, weights < ENOUGH);
         for (var i = 0; i < taps; i++) {
-            let row = (i * 37) >> 8u;
-            let offset = spacing * (vec2(i - 7 * row, row) - 3);
+            let offset = spacing * window_offset(i);
             let tap = pixel + offset;
             let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
-            let there = weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
+            let on_surface = neighbour_weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
             let h = textureLoad(history, clamped, 0).xy;
-            let w = select(0.0, there, inside(tap) && history_length(h) > 0.0);
+            let w = select(0.0, on_surface, inside(tap) && history_length(h) > 0.0);
             let c = color_at(clamped, h);
             color += w * c;
             square += w * luminance(c) * luminance(c);
@@ -75,28 +94,30 @@ fn filled(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, missing: bool) -> v
         }
     }
     let mean = color / max(weights, 1e-6);
-    // Var(mean) of so many, as far as a few tell it.
-    let variance = SHORT * max(square / max(weights, 1e-6) - luminance(mean) * luminance(mean), 0.0) / max(weights, 1.0);
-    return select(vec2(0u), pack_tap(mean, sqrt(variance)), weights > 1e-3);
+    // Var(mean) = Var/Σw, times 4 because few pixels estimate it, as in the variance of a history of one sample below.
+    let variance = SHORT_HISTORY * max(square / max(weights, 1e-6) - luminance(mean) * luminance(mean), 0.0) / max(weights, 1.0);
+    return select(vec2(0u), pack_tap(mean, sqrt(variance)), weights > LEAST_WEIGHT);
 }
 #endif
 
 #ifdef REPEATED_NOISE
-// Variance of a sample, over the mean's square, below which the history has seen no noise in time: less than the least that a
-// history keeps.
+// Variance of a sample over the square of the mean below which a history has seen no noise in time. It is less than the least
+// variance that a history stores.
 const SILENT: f32 = 1e-6;
 
-// What the least of four means over nine triples is of independent noise, over its variance: between 0.60 and 0.63 of uniform,
-// exponential and rare noise.
+// E[least of four means over nine triples] / Var for independent noise: between 0.60 and 0.63 for uniform, exponential and rare noise.
 const LEAST_OF_FOUR: f32 = 0.6;
 
-// Triples of a direction that tell anything: two rows of three.
-const FEWEST: f32 = 5.5;
+// Variance of a direction with too few triples.
+const UNKNOWN: f32 = 1e30;
 
-// How much greater a mean may be than the fourth largest of what it is of.
+// Sum of weights of a direction's triples below which they tell nothing: just under the six of two rows of three.
+const FEWEST_TRIPLES: f32 = 5.5;
+
+// Greatest ratio of a direction's mean to its fourth largest triple: beyond it, a lone bright pixel carries the mean.
 const LONE: f32 = 20.0;
 
-// A radiance on the centre's surface, as a difference to the centre's, and whether there is one.
+// A pixel's mean luminance less the centre's, and its weight: 0 where it is not on the centre's surface.
 struct Neighbour {
     difference: f32,
     weight: f32,
@@ -106,14 +127,13 @@ fn neighbour(pixel: vec2<i32>, offset: vec2<i32>, plane: Plane, normal: vec3<f32
     let tap = pixel + offset;
     let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
     let h = textureLoad(history, clamped, 0).xy;
-    let there = weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
-    return Neighbour(mean_luminance(h) - center, select(0.0, there, inside(tap) && history_length(h) > 0.0));
+    let on_surface = neighbour_weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
+    return Neighbour(mean_luminance(h) - center, select(0.0, on_surface, inside(tap) && history_length(h) > 0.0));
 }
 
-// The variance that three neighbours in a row show: independent numbers a, b, c have E[(b − (a + c)/2)²] = 1½·Var (compare
-// Immerkær 1996, "Fast Noise Variance Estimation").
-// With its weight, 0 where one of the three is elsewhere.
-fn bend(pixel: vec2<i32>, at: vec2<i32>, step: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32) -> vec2<f32> {
+// The variance that three neighbours in a row show, times their weight, and their weight: 0 where one of the three is on another
+// surface. For independent a, b, c: E[(b − (a + c)/2)²] = 1½·Var (compare Immerkær 1996, "Fast Noise Variance Estimation").
+fn triple_variance(pixel: vec2<i32>, at: vec2<i32>, step: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32) -> vec2<f32> {
     let a = neighbour(pixel, at - step, plane, normal, center);
     let b = neighbour(pixel, at, plane, normal, center);
     let c = neighbour(pixel, at + step, plane, normal, center);
@@ -121,26 +141,30 @@ fn bend(pixel: vec2<i32>, at: vec2<i32>, step: vec2<i32>, plane: Plane, normal: 
     return a.weight * b.weight * c.weight * vec2(difference * difference / 1.5, 1.0);
 }
 
-// The variance of noise that is the same in every frame: the mean over 3×3 such triples. An edge does not vary along itself, so the
-// least of four directions counts, of those with enough triples to tell. A lone bright pixel is in three of them: where there is
-// nothing else, it is no noise.
-fn repeated(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32, silent: bool) -> f32 {
+// The variance of noise that is the same in every frame: the mean over 3×3 triples, in each of four directions.
+//
+// Failure: an edge looks like noise across itself, and a lone bright pixel like noise in the three triples that hold it. Reason:
+// both differ from their neighbours. Rule: an edge does not vary along itself, so the least of the directions with enough triples
+// counts; a mean is at most 20 times the direction's fourth largest triple, which is 0 beside a lone pixel.
+fn repeated_noise(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32, silent: bool) -> f32 {
+    // The four largest triples of each direction.
     var first = vec4(0.0);
     var second = vec4(0.0);
     var third = vec4(0.0);
     var fourth = vec4(0.0);
     var sum = vec4(0.0);
     var weights = vec4(0.0);
-    // At the image's border, those beside it: what lies along the border could not be told from noise else.
+    // The 3×3 triples move inwards at the image's border: outside there is nothing to tell an edge along the border from noise.
     let middle = clamp(pixel, vec2(2), max(vec2<i32>(frame.size) - 3, vec2(2))) - pixel;
     let places = select(0, 9, silent);
     for (var i = 0; i < places; i++) {
+        // (i·11) >> 5 is i / 3 for i < 9.
         let row = (i * 11) >> 5u;
         let at = middle + vec2(i - 3 * row, row) - 1;
-        let across = bend(pixel, at, vec2(1, 0), plane, normal, center);
-        let down = bend(pixel, at, vec2(0, 1), plane, normal, center);
-        let falling = bend(pixel, at, vec2(1, 1), plane, normal, center);
-        let rising = bend(pixel, at, vec2(1, -1), plane, normal, center);
+        let across = triple_variance(pixel, at, vec2(1, 0), plane, normal, center);
+        let down = triple_variance(pixel, at, vec2(0, 1), plane, normal, center);
+        let falling = triple_variance(pixel, at, vec2(1, 1), plane, normal, center);
+        let rising = triple_variance(pixel, at, vec2(1, -1), plane, normal, center);
         let next = vec4(across.x, down.x, falling.x, rising.x);
         fourth = max(fourth, min(third, next));
         third = max(third, min(second, next));
@@ -149,9 +173,9 @@ fn repeated(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32, sile
         sum += next;
         weights += vec4(across.y, down.y, falling.y, rising.y);
     }
-    let each = select(vec4(1e30), min(sum / max(weights, vec4(1.0)), LONE * fourth), weights >= vec4(FEWEST));
+    let each = select(vec4(UNKNOWN), min(sum / max(weights, vec4(1.0)), LONE * fourth), weights >= vec4(FEWEST_TRIPLES));
     let least = min(min(each.x, each.y), min(each.z, each.w));
-    return select(0.0, least / LEAST_OF_FOUR, least < 1e30);
+    return select(0.0, least / LEAST_OF_FOUR, least < UNKNOWN);
 }
 #endif
 
@@ -159,31 +183,30 @@ fn repeated(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32, sile
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
     let h = textureLoad(history, pixel, 0).xy;
-    // 0 where nothing was hit, and where no sample was seen yet.
+    // 0 where the pixel hit nothing, and where it has seen no sample yet.
     let length = history_length(h);
-    let short = length > 0.0 && length < SHORT;
+    let short = length > 0.0 && length < SHORT_HISTORY;
     let g = textureLoad(guide, pixel, 0).xy;
     let normal = unpack_normal(g.x);
     let plane = tangent_plane(vec2<f32>(pixel), normal, bitcast<f32>(g.y));
     let center = mean_luminance(h);
-    // Moments over 7×7 about the centre's mean.
+    // First and second moment over the window, about the centre's mean so that their squares do not cancel.
     var first = 0.0;
     var second = 0.0;
     var weights = 0.0;
-    // One loop, which is not unrolled: a software adapter executes a branch either way, but a loop of no invocation once.
-    let taps = select(0, 49, short);
+    // A loop whose length is 0 in long histories, and not a branch: a software adapter executes a branch either way, but skips a
+    // loop that no invocation enters. It is not unrolled.
+    let taps = select(0, WINDOW, short);
     for (var i = 0; i < taps; i++) {
-        // i / 7 for i < 49.
-        let row = (i * 37) >> 8u;
-        let offset = vec2(i - 7 * row, row) - 3;
+        let offset = window_offset(i);
         let tap = pixel + offset;
         let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
-        let there = weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
+        let on_surface = neighbour_weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
         let other = textureLoad(history, clamped, 0).xy;
 #ifdef MISSING_SAMPLES
-        let w = select(0.0, there, inside(tap) && history_length(other) > 0.0);
+        let w = select(0.0, on_surface, inside(tap) && history_length(other) > 0.0);
 #else
-        let w = select(0.0, there, inside(tap));
+        let w = select(0.0, on_surface, inside(tap));
 #endif
         let d = mean_luminance(other) - center;
         first += w * d;
@@ -191,24 +214,24 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         weights += w;
     }
     let mean = first / max(weights, 1e-6);
-    // The fewer frames there are, the less the neighbours know either.
-    let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT / max(length, 1.0));
+    // Times 4/n: the neighbours of a history of n < 4 frames have seen as few frames as the pixel itself.
+    let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT_HISTORY / max(length, 1.0));
 #ifdef VARIANCE_OF_MEAN
-    // Bessel's correction while it matters, then the variance of a mean of n.
-    let own = history_variance(h) * select(1.0, length / max(length - 1.0, 0.5), length < 8.0);
-    var variance = mix(spatial, own, clamp((length - 1.0) / (SHORT - 1.0), 0.0, 1.0)) / max(length, 1.0);
+    // The variance of a mean of n samples: the unbiased variance of a sample over n.
+    let own = unbiased(history_variance(h), length);
+    var variance = mix(spatial, own, clamp((length - 1.0) / (SHORT_HISTORY - 1.0), 0.0, 1.0)) / max(length, 1.0);
 #else
     var variance = select(history_variance(h), spatial, short);
 #endif
 #ifdef REPEATED_NOISE
-    // A renderer that takes the same random numbers in each frame has noise that no history shows, and no average lessens: its
-    // frames are worth one.
+    // Failure: a renderer that draws the same random numbers in each frame keeps its noise. Reason: the noise shows in no history,
+    // and no average lessens it. Rule: its frames count as one, so the variance is that of a history of one sample.
     let silent = length >= 2.0 && center > 0.0 && history_variance(h) <= SILENT * center * center;
-    variance = max(variance, SHORT * repeated(pixel, plane, normal, center, silent));
+    variance = max(variance, SHORT_HISTORY * repeated_noise(pixel, plane, normal, center, silent));
 #endif
     let color = color_at(pixel, h);
 #ifdef MISSING_SAMPLES
-    // What is infinite is shown, and so far from all else that it is not mixed with it.
+    // An infinite sample is shown, with a deviation of 0: it is so far from all others that the filter does not mix it with them.
     let infinite = any(h != vec2(0u));
     var other = filled(pixel, plane, normal, length <= 0.0 && g.y != 0u && !infinite);
     other = select(other, pack_tap(color, 0.0), infinite);

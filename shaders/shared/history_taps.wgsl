@@ -1,6 +1,7 @@
 #define_import_path asvgf::history_taps
 
-// The last frame's history: what a pixel's own texel holds (STILL), or the bilinear taps around the place where its surface was.
+// The last frame's history: the pixel's own texel in an image that stands still (STILL), else the bilinear taps around the place
+// where its surface was.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
@@ -24,7 +25,7 @@
 @group(0) @binding(8) var feedback_previous: texture_2d<u32>;
 #endif
 
-// What is read at several taps, see `Feature::StorageReads`. Four storage textures are all that is sure to be had.
+// Images that are read at several taps are bound as storage, see `Feature::StorageReads`; every device has four storage textures.
 #ifdef STORAGE_READS
 @group(0) @binding(7) var history_previous: texture_storage_2d<rg32uint, read>;
 
@@ -66,16 +67,16 @@ struct History {
     mean: f32,
     variance: f32,
     length: f32,
-    // Sum of the weights of the taps that were accepted.
+    // Sum of the weights of the taps on the same surface; 0 if there is no history.
     weight: f32,
 #ifdef STEADY
-    // The last output there.
+    // The last output at the same taps.
     output: vec3<f32>,
 #endif
 }
 
 #ifdef STILL
-// The pixel's own, in an image that stands still.
+// The history of the pixel itself, in an image that stands still.
 fn own_history(pixel: vec2<i32>) -> History {
     let h = history_at(pixel);
     let length = history_length(h);
@@ -98,7 +99,7 @@ fn own_history(pixel: vec2<i32>) -> History {
     return history;
 }
 #else
-// Where the surface was, less where it is, and the depth that it had.
+// Motion of the surface: its former place less its place, in pixels, and its former depth.
 fn motion_of(pixel: vec2<i32>, depth: f32) -> vec3<f32> {
 #ifdef HOST_MOTION
     return unpack_motion(host_motion(pixel, depth).packed);
@@ -107,7 +108,7 @@ fn motion_of(pixel: vec2<i32>, depth: f32) -> vec3<f32> {
 #endif
 }
 
-// The surface as it was.
+// The pixel's surface as it was in the last frame.
 fn origin_at(pixel: vec2<i32>, moved: vec3<f32>, normal: vec3<f32>) -> Origin {
 #ifdef OBJECTS
     let here = textureLoad(object, pixel, 0).x;
@@ -117,7 +118,8 @@ fn origin_at(pixel: vec2<i32>, moved: vec3<f32>, normal: vec3<f32>) -> Origin {
     return origin_of(vec2<f32>(pixel), moved, normal, here);
 }
 
-struct Taps {
+// Weighted sums over the taps on one surface.
+struct TapSum {
     color: vec3<f32>,
     mean: f32,
     square: f32,
@@ -125,7 +127,7 @@ struct Taps {
     length: f32,
     weight: f32,
 #ifdef MISSING_SAMPLES
-    // Sum of the weights of all taps on the surface, also of those that have seen no sample yet.
+    // Sum of the weights of all taps on the surface, those that have seen no sample yet included.
     surface: f32,
 #endif
 #ifdef STEADY
@@ -133,14 +135,17 @@ struct Taps {
 #endif
 }
 
-fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear: f32) {
+// A tap below this bilinear weight is outside of the surface's footprint but for rounding.
+const LEAST_TAP: f32 = 1e-4;
+
+fn add_tap(sum: ptr<function, TapSum>, origin: Origin, place: vec2<i32>, bilinear: f32) {
     let tap = clamp(place, vec2(0), vec2<i32>(frame.size) - 1);
 #ifdef OBJECTS
     let there = textureLoad(object_previous, tap, 0).x;
 #else
     let there = 0u;
 #endif
-    let valid = bilinear >= 1e-4 && inside(place)
+    let valid = bilinear >= LEAST_TAP && inside(place)
         && same_surface(origin, tap, guide_at(tap), there);
     var weight = select(0.0, bilinear, valid);
     let h = history_at(tap);
@@ -166,15 +171,19 @@ fn add_tap(sum: ptr<function, Taps>, origin: Origin, place: vec2<i32>, bilinear:
 #endif
 }
 
-// The pixel at the upper left of a point's four. A motion that is whole but for rounding does not reach the next pixel.
+// Rounding errors of a motion, in pixels.
+const ROUNDING: f32 = 1e-4;
+
+// The upper left pixel of the four around a point. A motion that is whole but for rounding errors stays on its pixel: points a
+// 10⁴th below the next pixel count as that pixel.
 fn corner_of(point: vec2<f32>) -> vec2<i32> {
-    return vec2<i32>(floor(point + 1e-4));
+    return vec2<i32>(floor(point + ROUNDING));
 }
 
-fn bilinear_taps(origin: Origin, point: vec2<f32>) -> Taps {
+fn bilinear_taps(origin: Origin, point: vec2<f32>) -> TapSum {
     let base = corner_of(point);
     let f = max(point - vec2<f32>(base), vec2(0.0));
-    var sum = Taps();
+    var sum = TapSum();
     add_tap(&sum, origin, base, (1.0 - f.x) * (1.0 - f.y));
     add_tap(&sum, origin, base + vec2(1, 0), f.x * (1.0 - f.y));
     add_tap(&sum, origin, base + vec2(0, 1), (1.0 - f.x) * f.y);
@@ -182,14 +191,17 @@ fn bilinear_taps(origin: Origin, point: vec2<f32>) -> Taps {
     return sum;
 }
 
-// Their weighted mean; nothing where they weigh next to nothing.
-fn mean_of(sum: Taps) -> History {
-    if sum.weight <= 0.01 {
+// Sum of weights up to which no surface lies under the taps: a hundredth of the four bilinear weights' sum.
+const LEAST_WEIGHT: f32 = 0.01;
+
+// The taps' weighted mean; no history where the surface does not lie under them.
+fn mean_of(sum: TapSum) -> History {
+    if sum.weight <= LEAST_WEIGHT {
         return History();
     }
     let scale = 1.0 / sum.weight;
     let mean = sum.mean * scale;
-    // The taps' own variances and the spread of their means.
+    // Law of total variance: the mean of the taps' variances plus the variance of their means.
     let variance = sum.variance * scale + max(sum.square * scale - mean * mean, 0.0);
     var history = History();
     history.color = sum.color * scale;
