@@ -1,5 +1,5 @@
-// One à-trous iteration over the strata grid, on the gradient's numerator and denominator: x and y on the stratum's own surface,
-// z and w on any (ACROSS_SURFACES).
+// One à-trous iteration over the grid of strata, on the gradient's numerator and denominator: x and y on the stratum's own surface,
+// z and w on any surface (ACROSS_SURFACES).
 
 #import asvgf::strata_filter::site
 #import asvgf::strata_taps::{record_of, tap_at}
@@ -28,7 +28,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let stratum = vec2<i32>(id.xy);
     let record = record_of(stratum);
     var sum = vec4(0.0);
-    // On the own surface, on any.
+    // Sums of weights on the own surface, and on any.
     var weights = vec2(0.0);
     if record.x != 0u {
         let center = site(record, stratum);

@@ -1,4 +1,4 @@
-// One à-trous iteration over the strata grid, on both means with the same weights; variances and squares go with the squares of the
+// One à-trous iteration over the grid of strata, on both means with the same weights. Variances and squares take the squares of the
 // weights.
 
 #import asvgf::means::{Means, pack_before, pack_now, scaled, unpack_means}
@@ -9,7 +9,7 @@
 @group(0) @binding(5) var now_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(6) var before_out: texture_storage_2d<rgba32uint, write>;
 
-// Four storage textures are all that is sure to be had, see `Feature::StorageReads`.
+// `before` is no storage texture: a device is only sure to have four, see `Feature::StorageReads`.
 #ifdef STORAGE_READS
 @group(0) @binding(3) var now: texture_storage_2d<rgba32uint, read>;
 
@@ -48,7 +48,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             }
         }
     }
-    // The centre weighs 4 wherever there is a record.
+    // The tent weighs 4 at the centre, so the sum of weights is at least 4 wherever there is a record.
     let means = scaled(sum, 1.0 / max(weights, 1.0));
     textureStore(now_out, stratum, pack_now(means));
     textureStore(before_out, stratum, pack_before(means));

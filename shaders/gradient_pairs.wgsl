@@ -1,5 +1,5 @@
-// For each stratum with a sample, the two radiances that one path had, now (f) and in the previous frame (f'), and the
-// products from which the history ratio's variance follows.
+// The two radiances of each stratum's path, now (f) and in the previous frame (f′), and the products of luminances from which the
+// variance of the history ratio follows.
 
 #import asvgf::frame::frame
 #import asvgf::color::luminance

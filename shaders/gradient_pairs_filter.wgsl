@@ -1,4 +1,4 @@
-// One à-trous iteration over the strata grid, on all channels of the pairs with the same weights.
+// One à-trous iteration over the grid of strata, on all channels of the pairs with the same weights.
 
 #import asvgf::pairs::{Pair, pack_now, pack_before, unpack_pair}
 #import asvgf::strata_filter::site
@@ -8,7 +8,7 @@
 @group(0) @binding(5) var now_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(6) var before_out: texture_storage_2d<rgba32uint, write>;
 
-// Four storage textures are all that is sure to be had, see `Feature::StorageReads`.
+// `before` is no storage texture: a device is only sure to have four, see `Feature::StorageReads`.
 #ifdef STORAGE_READS
 @group(0) @binding(3) var now: texture_storage_2d<rgba32uint, read>;
 
@@ -44,7 +44,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             }
         }
     }
-    // The centre weighs 4 wherever there is a sample.
+    // The tent weighs 4 at the centre, so the sum of weights is at least 4 wherever there is a sample.
     let scale = 1.0 / max(weights, 1.0);
     let mean = Pair(sum.now * scale, sum.before * scale, sum.product * scale);
     textureStore(now_out, stratum, pack_now(mean));

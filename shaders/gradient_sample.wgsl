@@ -1,9 +1,10 @@
-// Chooses, in each stratum, the pixel whose path will repeat one of last frame's (Schied et al. 2018, §4.1). The surface is
-// found by back-projection through the exact motion, and last frame's visibility sample then gives the exact surface point,
-// so that neither atomics are needed nor a sub-pixel shift remains.
+// Chooses in each stratum the pixel whose path repeats one of the last frame (Schied et al. 2018, §4.1).
 //
-// The choice rotates over the stratum's nine pixels: a random one is unbiased where the brightest is not, and a pixel that
-// repeated a path last frame has no path of its own to repeat.
+// The surface is found by back-projection through the exact motion, and the last frame's visibility sample then gives the exact
+// surface point. So neither atomics are needed, nor does a sub-pixel shift remain.
+//
+// The choice rotates over the stratum's nine pixels. A random pixel is unbiased where the brightest is not, and a pixel that
+// repeated a path in the last frame has no path of its own to repeat.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::random::hash
@@ -21,7 +22,7 @@
 @group(0) @binding(6) var samples_previous: texture_2d<u32>;
 @group(0) @binding(7) var samples_out: texture_storage_2d<rgba32uint, write>;
 
-// Candidates tried per stratum: a fourth finds something in fewer than 1 % of the strata of a moving image.
+// Candidates that are tried per stratum. A fourth one finds something in fewer than 1 % of the strata of a moving image.
 const CANDIDATES = 3u;
 
 @compute @workgroup_size(8, 8)
@@ -29,7 +30,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let stratum = vec2<i32>(id.xy);
     var record = vec4(0u);
     if frame.continued != 0u {
-        // Step 4 visits all nine places before it repeats one.
+        // Steps of 4 visit all nine places before they repeat one, because 4 and 9 have no common divisor.
         let first = (hash(id.x ^ hash(id.y ^ hash(frame.seed))) % 9u + 4u * (frame.index % 9u)) % 9u;
         for (var k = 0u; k < CANDIDATES; k++) {
             let place = first + k - select(0u, 9u, first + k >= 9u);

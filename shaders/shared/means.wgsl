@@ -1,14 +1,15 @@
 #define_import_path asvgf::means
 
-// What a stratum, or the strata around it, show of a change without pairs: means over samples i of one surface.
+// Means over samples i of one surface, of a stratum or of the strata around it: the evidence of change where there are no pairs.
 
 #import asvgf::packing::{pack_rgb, unpack_rgb}
 
 struct Means {
-    // Of the new samples, s, and of the reprojected histories, m.
+    // Mean of the new samples, s.
     now: vec3<f32>,
+    // Mean of the reprojected histories, m.
     before: vec3<f32>,
-    // Σw²(v + v/n)/(Σw)²: the variance of s − m as the histories know it; v that of a sample's luminance.
+    // Σw²(v + v/n)/(Σw)²: the variance of s − m as the histories know it, where v is the variance of a sample's luminance.
     variance: f32,
     // Σw²·l(s)², Σw²·l(s)·l(m), Σw²·l(m)², each over (Σw)²: the same variance as the samples show it, for any ratio of the two.
     now_square: f32,
@@ -16,7 +17,7 @@ struct Means {
     before_square: f32,
 }
 
-// In two texels.
+// Packs the means into two texels.
 fn pack_now(means: Means) -> vec4<u32> {
     return vec4(pack_rgb(means.now), bitcast<u32>(means.now_square), bitcast<u32>(means.variance));
 }

@@ -1,6 +1,6 @@
 #define_import_path asvgf::pair_taps
 
-// The two radiances that a stratum's path had, now and in the last frame.
+// The two radiances of a stratum's path, now and in the last frame.
 
 #import asvgf::packing::{is_sample, unpack_rgb}
 #import asvgf::strata::{place_now, place_before}
@@ -20,10 +20,11 @@
 @group(0) @binding(10) var limit: texture_2d<u32>;
 @group(0) @binding(11) var history_previous: texture_2d<u32>;
 
-// A pair may be that much brighter than a sample: one alone changes neither ratio nor λ by much, and what a change has to say may be bright.
+// Bound of a pair in bounds of a sample. Pairs may be brighter: one alone changes neither ratio nor λ by much, and the evidence of
+// a change may be bright.
 const LEEWAY: f32 = 1.6;
 
-// Whether neither radiance is brighter than light is believed to be there (outliers.wgsl).
+// True if neither radiance is brighter than light is believed to be there (outliers.wgsl).
 fn is_believed(record: vec4<u32>, stratum: vec2<i32>, now: vec3<f32>, before: vec3<f32>) -> bool {
     let believed = unpack_limit(textureLoad(limit, stratum, 0));
 #ifdef PAIRS
@@ -44,7 +45,8 @@ struct Radiances {
     before: vec3<f32>,
 }
 
-// Those of a stratum with a record. Where one of the two is missing there is nothing to compare: two zeros weigh on no sum.
+// The radiances of a stratum with a record. If one of the two is missing there is nothing to compare: two zeros add nothing to any
+// sum.
 fn radiances_of(record: vec4<u32>, stratum: vec2<i32>) -> Radiances {
     let path_now = textureLoad(radiance, place_now(record, stratum), 0).xy;
     let path_before = textureLoad(radiance_previous, place_before(record, stratum), 0).xy;

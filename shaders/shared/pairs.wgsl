@@ -2,15 +2,15 @@
 
 #import asvgf::packing::{pack_rgb, unpack_rgb}
 
-// The radiances of a gradient's path or, once filtered, their means: f and f' with the squares of their luminances l² and l'²,
-// and l·l'. The variance of a ratio is a difference of the last three, of which little may be left: they are f32.
+// The radiances f and f′ of a gradient's path or, once filtered, their means, with the squares of their luminances l² and l′², and
+// l·l′. The three products are f32, because the variance of a ratio is a difference of them of which little may be left.
 struct Pair {
     now: vec4<f32>,
     before: vec4<f32>,
     product: f32,
 }
 
-// In two texels: f (62 bits), l², l·l'; f', l'².
+// Packs a pair into two texels: f (62 bits), l², l·l′; f′, l′².
 fn pack_now(pair: Pair) -> vec4<u32> {
     return vec4(pack_rgb(pair.now.xyz), bitcast<u32>(pair.now.w), bitcast<u32>(pair.product));
 }

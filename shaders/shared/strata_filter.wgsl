@@ -5,7 +5,7 @@
 #import asvgf::edge_stop::falloff
 #import asvgf::strata::sample_pixel
 
-// Where a stratum's sample lies, from its record.
+// The surface point of a stratum's sample, from its record.
 struct Site {
     position: vec3<f32>,
     normal: vec3<f32>,
@@ -18,16 +18,19 @@ fn site(record: vec4<u32>, stratum: vec2<i32>) -> Site {
     return Site(seen_position(frame.camera, point, depth), unpack_normal(record.z), depth);
 }
 
-// Exponent of the geometric weight between strata, and between a pixel and a stratum: distance from the plane in
-// parts of `reach`, and angle of the normals.
+// Factor on 1 − n·n′: e^(−32·(1 − n·n′)) is about (n·n′)³². It is the default of `FilterSettings::sigma_normal` too.
+const NORMAL_SHARPNESS: f32 = 32.0;
+
+// Exponent of the geometric weight between strata, and between a pixel and a stratum: the distance from the plane in units of
+// `reach`, and the angle of the normals.
 fn geometric_exponent(normal: vec3<f32>, offset: vec3<f32>, other_normal: vec3<f32>, reach: f32) -> f32 {
-    return abs(dot(normal, offset)) / reach + 32.0 * (1.0 - dot(normal, other_normal));
+    return abs(dot(normal, offset)) / reach + NORMAL_SHARPNESS * (1.0 - dot(normal, other_normal));
 }
 
-// Tolerated distance from the plane, in parts of the depth.
+// Tolerated distance from the tangent plane, in parts of the depth.
 const PLANE: f32 = 0.02;
 
-// A tent on 3×3 taps.
+// A tent on 3×3 taps: 4 at the centre, 2 beside it, 1 at the corners.
 fn tent(offset: vec2<i32>) -> f32 {
     return f32((2 - abs(offset.x)) * (2 - abs(offset.y)));
 }

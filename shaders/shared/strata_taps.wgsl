@@ -1,6 +1,6 @@
 #define_import_path asvgf::strata_taps
 
-// The 3×3 taps of one à-trous iteration over the strata grid, `stride` strata apart, as all filters of strata have them.
+// The 3×3 taps of one à-trous iteration over the grid of strata, `stride` strata apart. All filters of strata have them.
 
 #import asvgf::frame::frame
 #import asvgf::strata_filter::{Site, site, tap_weight, in_grid}
@@ -22,9 +22,9 @@ fn record_of(stratum: vec2<i32>) -> vec4<u32> {
 #endif
 
 struct Tap {
-    // Where it is, moved into the grid.
+    // The tap's stratum, moved into the grid.
     stratum: vec2<i32>,
-    // That of its surface, 0 where there is none.
+    // The tap's weight, 0 if it does not exist.
     weight: f32,
     exists: bool,
 }
