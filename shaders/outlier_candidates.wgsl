@@ -1,17 +1,21 @@
-// Which samples may be outliers: in each stratum the one that is farthest above its level, and what the other pixels show.
+// Finds the samples that may be outliers: in each stratum the one that is farthest above its level, and what the other pixels show.
 //
-// A candidate is brighter than half of B (outliers.wgsl), or was one in the last frame and is still half as bright, so that a steady highlight
-// is seen to be one. Its history is that of the nearest pixel where its surface was, whatever
-// surface that shows: a wrong one at an edge costs a candidate too many. A pixel without a history is compared with the others of its stratum.
+// A candidate is brighter than B/2 (outliers.wgsl). A pixel that was a candidate in the last frame stays one while it is at least
+// half as bright, so that a steady highlight is seen to be steady. Its history is that of the nearest pixel at its surface's former
+// place, whatever surface that shows, because a wrong one at an edge only costs a candidate too many. A pixel without a history is
+// compared with the others of its stratum.
 //
-//   m ← max(l, 0.6·m')        of the stratum where its surface was: light that few paths find shows every few frames
-//   e ← e' + (Σmin(l, 10⁹·level) − e')/min(n + 1, 16)       over the candidates: no outlier makes all other light look dark
+//   m ← max(l, 0.6·m′)                                      m′ of the stratum where its surface was
+//   e ← e′ + (Σmin(l, 10⁹·level) − e′)/min(n + 1, 16)       over the candidates
+//
+// m fades instead of vanishing because light that few paths find shows only every few frames. e bounds each candidate, so that no
+// outlier makes all other light look dark.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::luminance
 #import asvgf::history::{history_color, history_length}
 #import asvgf::history_taps::history_at
-#import asvgf::outliers::{Candidate, LEAST_LEVEL, MOST_RATIO, bound, pack_candidate, ratio_to, unpack_candidate, unpack_limit}
+#import asvgf::outliers::{Candidate, LEAST_LEVEL, LEAST_RATIO, MOST_RATIO, bound, pack_candidate, ratio_to, unpack_candidate, unpack_limit}
 #import asvgf::packing::unpack_rgb
 #import asvgf::sample::sample_at
 #import asvgf::strata::{is_at, pixel_at, place_from_center, stratum_of}
@@ -36,16 +40,19 @@
 @group(0) @binding(10) var limit_previous: texture_2d<u32>;
 @group(0) @binding(11) var candidates_out: texture_storage_2d<rgba32uint, write>;
 
-// Part of a candidate's luminance that is left a frame later.
+// Part of a candidate's luminance m that is left a frame later.
 const KEPT: f32 = 0.6;
 
-// Frames over which the light that candidates imply is averaged.
+// Frames over which e, the light that candidates imply, is averaged.
 const SLOW: f32 = 16.0;
 
-// Sightings that are counted.
+// Most sightings that are counted: three bits.
 const MOST_SIGHTINGS: u32 = 7u;
 
-// Where a pixel's surface was.
+// Part of the light that candidates imply below which all other light is no light to compare them with.
+const DARK: f32 = 1e-10;
+
+// The pixel where a pixel's surface was.
 fn origin(pixel: vec2<i32>, depth: f32) -> vec2<i32> {
 #ifdef STILL
     return pixel;
@@ -58,14 +65,15 @@ fn origin(pixel: vec2<i32>, depth: f32) -> vec2<i32> {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let stratum = vec2<i32>(id.xy);
     var now = Candidate();
-    // Where the stratum was.
+    // The stratum where this stratum's surface was, below 0 for none.
     var last_stratum = vec2(-1);
     var length = 0.0;
     var farthest = 0.0;
-    // Place and sightings of a candidate that has no new sample.
+    // Place and sightings of a candidate that has no new sample in this frame.
     var carried = vec2(0u);
     var implied = 0.0;
-    // Samples without a history: the largest, where that is, the sum of all others (f32 would lose that beside the largest), and how many.
+    // Samples without a history: their largest, its place and its sightings; the sum of all others, which f32 would lose beside the
+    // largest; their number.
     var rest = 0.0;
     var largest = 0.0;
     var largest_at = 0u;
@@ -85,11 +93,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let before = origin(pixel, bitcast<f32>(g.y));
         let known = frame.continued != 0u && inside(before);
         let tap = clamp(before, vec2(0), vec2<i32>(frame.size) - 1);
-        // How often running it was a candidate before.
+        // The number of frames running in which it was a candidate.
         let there = stratum_of(vec2<u32>(tap));
         let last = unpack_candidate(textureLoad(candidates_previous, there, 0));
         let was_one = known && is_at(last.place, vec2<u32>(tap));
-        // A missing sample, or a repeated path, teaches nothing of a candidate, and lets nothing be forgotten.
+        // A missing sample, or a repeated path, teaches nothing of a candidate, and is no reason to forget one.
         var is_new = true;
 #ifdef MISSING_SAMPLES
         is_new = is_sample(arrived);
@@ -125,7 +133,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let around = unpack_limit(textureLoad(limit_previous, there, 0)).expected;
         let least = max(level, LEAST_LEVEL * around);
         let ratio = ratio_to(bound(least, n), l);
-        let candidate = ratio > 0.5 || (sightings > 0u && sightings < MOST_SIGHTINGS && l > 0.0);
+        let candidate = ratio > LEAST_RATIO || (sightings > 0u && sightings < MOST_SIGHTINGS && l > 0.0);
         now.expected += level;
         now.candidates += select(0u, 1u, candidate);
         implied += select(0.0, min(l, MOST_RATIO * least), candidate);
@@ -140,7 +148,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let others = rest / max(fresh_count - 1.0, 1.0);
     let ratio = ratio_to(bound(others, 1.0), largest);
-    let candidate = fresh_count > 1.0 && ratio > 0.5;
+    let candidate = fresh_count > 1.0 && ratio > LEAST_RATIO;
     now.candidates += select(0u, 1u, candidate);
     implied += select(0.0, min(largest, MOST_RATIO * others), candidate);
     let shown = rest + select(largest, 0.0, candidate);
@@ -162,8 +170,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         now.brightest = max(now.brightest, KEPT * last.brightest);
         now.running = last.running;
         now.implied = last.implied + (implied - last.implied) / min(length + 1.0, SLOW);
-        // What is far darker than that light is no light to compare it with.
-        let dark = 1e-10 * unpack_limit(textureLoad(limit_previous, last_stratum, 0)).implied;
+        // Light far darker than what the candidates imply does not count as light.
+        let dark = DARK * unpack_limit(textureLoad(limit_previous, last_stratum, 0)).implied;
         now.lit = select(0u, now.lit, now.ordinary > dark * f32(now.seen));
     }
     let kept = select(0u, now.running, carried.x != 0u);

@@ -1,23 +1,26 @@
-// How many strata of a row have a candidate, by its ratio, and the sums of what their pixels show: 13 strata around each, the first half
-// of what outlier_limit.wgsl goes by.
+// Counts the strata of a row that have a candidate, by the candidate's ratio, and sums up their pixels. The row is the 13 strata
+// around each stratum; outlier_limit.wgsl adds up 13 rows.
 //
-// A count is a byte, as 13×13 strata are fewer than 256. The candidates' ratios, from ½ on, fall into 15 classes by powers of 4; the last
-// byte counts the strata that have a sample.
+// A count is a byte, because 13×13 strata are fewer than 256. The candidates' ratios, from ½ on, fall into 15 classes by powers of
+// 4; the last byte counts the strata that have a sample.
 
 #import asvgf::frame::frame
-#import asvgf::outliers::{LEAST_LEVEL, WINDOW, bound, ratio_to, unpack_candidate, window_start}
+#import asvgf::outliers::{LEAST_LEVEL, LEAST_RATIO, WINDOW, bound, ratio_to, unpack_candidate, window_start}
 
 @group(0) @binding(1) var candidates: texture_2d<u32>;
 @group(0) @binding(2) var counts_out: texture_storage_2d<rgba32uint, write>;
 @group(0) @binding(3) var sums_out: texture_storage_2d<rgba32uint, write>;
 
-// Candidates of a row that are counted: 13 rows of them fit into the ten bits that lit and seen pixels (11 each) leave. More than
-// that are never few, see outlier_limit.wgsl.
+// Most candidates of a row that are counted: 13 rows of them fit into the ten bits that the numbers of lit and of seen pixels (11
+// each) leave. More are never few, see outlier_limit.wgsl.
 const MOST_OF_A_ROW: u32 = 78u;
 
-// ⌊½·log₂(2r)⌋, from the bits of r ≥ ½.
+// The last of the 15 classes.
+const LAST_CLASS: u32 = 14u;
+
+// Class of a ratio r ≥ ½: ⌊½·log₂(2r)⌋, from the exponent's bits.
 fn class_of(ratio: f32) -> u32 {
-    return min(((bitcast<u32>(ratio) >> 23u) - 126u) >> 1u, 14u);
+    return min(((bitcast<u32>(ratio) >> 23u) - 126u) >> 1u, LAST_CLASS);
 }
 
 @compute @workgroup_size(8, 8)
@@ -42,7 +45,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let c = unpack_candidate(textureLoad(candidates, place, 0));
         let ratio = ratio_to(bound(max(c.expected / f32(max(c.seen, 1u)), least), c.length), c.brightest);
         let class_number = class_of(ratio);
-        let one = select(0u, 1u << (8u * (class_number & 3u)), ratio >= 0.5);
+        let one = select(0u, 1u << (8u * (class_number & 3u)), ratio >= LEAST_RATIO);
         counts += select(vec4(0u), vec4(one), vec4(class_number >> 2u) == vec4(0u, 1u, 2u, 3u));
         counts.w += select(0u, 1u << 24u, c.seen > 0u);
         sums += vec3(c.implied, c.ordinary, c.expected);

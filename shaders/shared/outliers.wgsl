@@ -1,41 +1,46 @@
 #define_import_path asvgf::outliers
 
-// How bright a sample may be beside what its surroundings have shown, in two texels per stratum.
+// The bound on a sample's luminance, from the light that its surroundings have shown. Candidates and limits take two texels per stratum.
 //
-// Failure: twelve pixels of 6·10⁴ in each of eight frames made a room of 0.15 brighter by a factor of 128 on average. Reason: a mean has no bound on what one sample can do to it. Rule: a sample of luminance l is believed as far as
+// Failure: twelve pixels of 6·10⁴ in each of eight frames made a room of 0.15 brighter by a factor of 128 on average. Reason: a
+// mean has no bound on what one sample can do to it. Rule: a sample of luminance l is believed as far as
 //
 //   l ≤ R·B,  B = limit·level·max(1, min(n, longest history)/64)
 //
-// where the level is the greatest of the history's luminance, of the last output's, of a quarter of the mean level around, and of λ times the
-// mean around in this frame. B grows with the history length n, so that
-// the most that one sample can do to a mean stays the same, and a still image still converges. R is 1 but where several strata around
-// have seen samples as far above their levels: light that few paths find is light all the same.
+// The level is the greatest of four: the luminance of the history, that of the last output, a quarter of the mean level around, and
+// λ times the mean luminance around in this frame. B grows with the history length n, so that the most that one sample can do to a
+// mean stays the same, and a still image still converges. R is 1, unless several strata around have seen samples as far above their
+// levels: light that few paths find is light all the same. docs/filter.md has the measurements.
 
 #import asvgf::frame::frame
 
-// The stratum's brightest candidate and what its pixels are made of, see outlier_candidates.wgsl.
+// A stratum's brightest candidate and the sums over its pixels, see outlier_candidates.wgsl.
 struct Candidate {
-    // Its luminance, fading from frame to frame; 0 for none.
+    // Luminance of the candidate, which fades from frame to frame; 0 for none.
     brightest: f32,
-    // Slow mean of the candidates' sum of luminances.
+    // Slow mean over frames of the sum of the candidates' luminances.
     implied: f32,
-    // Sum of luminances of all other samples, and of the levels.
+    // Sum of the luminances of all other samples.
     ordinary: f32,
+    // Sum of the levels.
     expected: f32,
-    // Its pixel in the stratum, 1…9 row by row, 0 where this frame has none, and the frames running that its surface was one.
+    // Pixel of the candidate in the stratum, 1…9 row by row; 0 if this frame has none.
     place: u32,
+    // Frames running in which that pixel's surface was a candidate.
     sightings: u32,
-    // The frames running in which the stratum had one, whichever.
+    // Frames running in which the stratum had a candidate, whichever.
     running: u32,
-    // Pixels with a sample, those of them that are lit and no candidates, and candidates.
+    // Number of pixels with a sample.
     seen: u32,
+    // Number of those that are lit and no candidates.
     lit: u32,
+    // Number of candidates.
     candidates: u32,
-    // History length, to a 32nd.
+    // History length, to 1/32 of it.
     length: f32,
 }
 
-// A f32 with 8 bits of mantissa in 16 bits.
+// Packs a non-negative f32 into its upper 16 bits, rounded: 8 bits of mantissa are left.
 fn pack_brief(x: f32) -> u32 {
     return (bitcast<u32>(min(x, 3e38)) + 0x7fffu) >> 16u;
 }
@@ -67,17 +72,17 @@ fn unpack_candidate(bits: vec4<u32>) -> Candidate {
     );
 }
 
-// What is believed in a stratum, see outlier_limit.wgsl.
+// The limit on samples of a stratum, see outlier_limit.wgsl.
 struct Limit {
-    // R.
+    // R of the rule above.
     ratio: f32,
-    // Mean luminance of the samples around that are no candidates: the level where there is no history.
+    // Mean luminance of the samples around that are no candidates. It is the level where there is no history.
     level: f32,
-    // Slow mean of what the candidates around would add to that.
+    // Slow mean of the light that the candidates around imply, per pixel.
     implied: f32,
-    // Mean of the levels around.
+    // Mean level around.
     expected: f32,
-    // Sightings in a row after which a sample is believed whatever it is.
+    // Sightings running after which a sample is believed, however bright.
     sightings: u32,
 }
 
@@ -100,26 +105,32 @@ fn unpack_limit(bits: vec4<u32>) -> Limit {
     );
 }
 
-// Strata of a window in each direction.
+// Width of the window of strata around one that is asked, in strata.
 const WINDOW: i32 = 13;
 
-// The first stratum of the window around one, which does not reach over the image's border.
+// First stratum of the window around one. At the image's border the window moves inwards.
 fn window_start(stratum: i32, strata: u32) -> i32 {
     return clamp(stratum - WINDOW / 2, 0, max(i32(strata) - WINDOW, 0));
 }
 
-// Greatest ratio that is told from others.
+// Greatest ratio l/B that is told from others.
 const MOST_RATIO: f32 = 1e9;
 
-// Part of the mean level around that a level is not below: where few paths find light, a pixel's own is as often far too low.
+// Least ratio l/B of a candidate.
+const LEAST_RATIO: f32 = 0.5;
+
+// Least level, in parts of the mean level around: where few paths find light, a pixel's own level is often far too low.
 const LEAST_LEVEL: f32 = 0.25;
 
-// B.
+// History length from which on B grows with it: α is below 1/64 there, and n/64 keeps the most that a sample adds, α·B, the same.
+const GROWS_FROM: f32 = 64.0;
+
+// The bound B = limit·level·max(1, n/64).
 fn bound(level: f32, length: f32) -> f32 {
-    return frame.outlier_limit * level * max(1.0, min(length, frame.max_history) / 64.0);
+    return frame.outlier_limit * level * max(1.0, min(length, frame.max_history) / GROWS_FROM);
 }
 
-// l/B.
+// l/B, at most `MOST_RATIO`; 0 for a black sample.
 fn ratio_to(bound: f32, l: f32) -> f32 {
     return select(0.0, min(l / max(max(bound, l / MOST_RATIO), 1e-37), MOST_RATIO), l > 0.0);
 }
