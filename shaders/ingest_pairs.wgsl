@@ -1,5 +1,5 @@
-// The pairs of radiances that a host made, one path each, now and in the previous frame, as records and demodulated radiances of
-// the strata. See gradient.wgsl for what becomes of them.
+// Turns the pairs of radiances that a host made, one path each, now and in the previous frame, into records and demodulated
+// radiances of the strata. gradient.wgsl goes on with them.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::color::{BRIGHTEST, is_finite, luminance}
@@ -37,16 +37,16 @@ fn value(texel: vec4<f32>) -> vec3<f32> {
 #endif
 }
 
-// What the pair is divided by to compare with demodulated radiance.
+// Divisor that makes the pair comparable with demodulated radiance.
 fn divisor_at(pixel: vec2<i32>) -> vec3<f32> {
     var divisor = vec3(1.0);
 #ifdef MODULATED
 #ifdef ALBEDO
 #ifdef HOST_LIGHT
-    // Asked for where there is a surface alone.
+    // Only called where there is a surface.
     divisor = host_albedo(pixel, true);
 #else
-    // A hole has an albedo of 0, see host_light.wgsl.
+    // A hole has an albedo of 0, see `is_hole` in host_light.wgsl.
     divisor = max(textureLoad(albedo, pixel, 0).xyz, vec3(LEAST_ALBEDO));
 #endif
 #ifdef LUMINANCE_PAIRS
@@ -72,7 +72,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var before = vec3(0.0);
     var broken = false;
 #ifdef STRATUM_PAIRS
-    // The pair stands for the stratum's centre, or for what an edge of the image leaves of it.
+    // The pair stands for the stratum's centre or, at the image's edge, for the pixel nearest to it.
     let center = min(stratum * 3 + 1, vec2<i32>(frame.size) - 1);
     let first = u32(center.y - stratum.y * 3) * 3u + u32(center.x - stratum.x * 3);
     let last = first + 1u;
@@ -94,7 +94,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let p = value(textureLoad(previous, at, 0));
         broken |= !(finite(c) && finite(p));
         let g = textureLoad(guide, pixel, 0).xy;
-        // −1 says that there is none.
+        // −1 says that there is no pair.
         if !finite(c) || !finite(p) || any(min(c, p) < vec3(0.0)) || g.y == 0u {
             continue;
         }

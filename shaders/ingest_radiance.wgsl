@@ -1,5 +1,7 @@
-// A host's radiance as the filter's own images: demodulated, r = max(radiance − emission, 0) / clamp(albedo, 0.02, 1), so that no
-// detail of textures is blurred, and cleaned before it reaches history.
+// Turns a host's radiance into the filter's own images. It is demodulated, so that no detail of textures is blurred, and cleaned
+// before it reaches the history:
+//
+//   r = max(radiance − emission, 0) / clamp(albedo, 0.02, 1)
 
 #import asvgf::frame::inside
 #ifdef RESHADE
@@ -51,8 +53,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var divisor = vec3(1.0);
 #ifdef RESHADE
-    // What was shaded here is the surface that another pixel saw in the last frame. If this frame's light turns out to be of another
-    // kind than the last one's, there is nothing to compare it with.
+    // A pixel that repeats a path shows the surface that another pixel saw in the last frame. If this frame's light is demodulated
+    // in another way than the last one's, there is nothing to compare it with.
     let record = textureLoad(samples, vec2<i32>(stratum_of(id.xy)), 0);
     let repeats = is_sample_pixel(record, id.xy);
     let comparable = !repeats || frame.continued != 0u;
@@ -62,7 +64,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let a = host_albedo(pixel, textureLoad(guide, pixel, 0).y != 0u);
     divisor = a;
 #ifdef RESHADE
-    // That surface's albedo is the one to divide by.
+    // The albedo of that surface is the one to divide by.
     if repeats {
         divisor = max(textureLoad(albedo_previous, previous_pixel(record), 0).xyz, vec3(LEAST_ALBEDO));
     }

@@ -1,4 +1,5 @@
-// A host's depth, normals and motion as the filter's own images. What cannot be used is cleaned here, before it reaches history.
+// Turns a host's depth, normals and motion into the filter's own images. Numbers that cannot be used are cleaned here, before they
+// reach the history.
 
 #import asvgf::frame::inside
 #import asvgf::color::is_finite
@@ -30,15 +31,19 @@
 #endif
 @group(0) @binding(6) var object_out: texture_storage_2d<r32uint, write>;
 #endif
-// As visibility.wgsl writes them.
+// The same formats as in visibility.wgsl.
 @group(0) @binding(7) var guide_out: texture_storage_2d<rg32uint, write>;
 #ifndef HOST_MOTION
 @group(0) @binding(8) var motion_out: texture_storage_2d<rg32uint, write>;
 #endif
 
-// Depths of surfaces. Some renderers give their sky f32's largest number; within these the square of a depth is a normal number.
+// Depths of surfaces. Some renderers give their sky f32's largest number; within these limits the square of a depth is a normal
+// number.
 const NEAREST: f32 = 1e-18;
 const FARTHEST: f32 = 1e18;
+
+// Squared length below which a normal means that there is none.
+const LEAST_SQUARED_NORMAL: f32 = 1e-12;
 
 fn normal_at(pixel: vec2<i32>) -> vec3<f32> {
 #ifdef PACKED_NORMALS
@@ -65,10 +70,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let hit = is_finite(z) && z >= NEAREST && z <= FARTHEST;
     let n = normal_at(pixel);
     let squared = dot(n, n);
-    // Any length is taken but none: a renderer that clears its normals to zero means that there is no surface.
-    let oriented = is_finite(squared) && squared > 1e-12;
+    // A normal may have any length but none: a renderer that clears its normals to zero means that there is no surface.
+    let oriented = is_finite(squared) && squared > LEAST_SQUARED_NORMAL;
     let seen = hit && oriented;
-    let unit = n * inverseSqrt(max(squared, 1e-12));
+    let unit = n * inverseSqrt(max(squared, LEAST_SQUARED_NORMAL));
     textureStore(guide_out, pixel, vec4(select(vec2(0u), vec2(pack_normal(unit), bitcast<u32>(z)), seen), 0u, 0u));
 #ifndef HOST_MOTION
     let moved = host_motion(pixel, z);
@@ -76,7 +81,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #ifdef OBJECTS
 #ifdef FLOAT_OBJECTS
-    // Only told apart, never computed with.
+    // The bits are only compared, never computed with.
     let object = bitcast<u32>(textureLoad(instance, pixel, 0).x);
 #else
     let object = textureLoad(instance, pixel, 0).x;

@@ -1,4 +1,4 @@
-// Puts the picture together again: filtered radiance times albedo, plus what the surface or the sky emits towards the camera.
+// Puts the picture together: filtered radiance times albedo, plus the emission of the surface or the sky towards the camera.
 
 #import asvgf::frame::{frame, inside}
 #import asvgf::packing::unpack_rgb
@@ -28,7 +28,7 @@
 #endif
 @group(0) @binding(8) var guide: texture_2d<u32>;
 
-// Whether there is a surface. Only a host's frames ask for that.
+// True if the pixel sees a surface. Only a host's frames ask for it.
 fn hit_at(pixel: vec2<i32>) -> bool {
 #ifdef HOST_LIGHT
     return textureLoad(guide, pixel, 0).y != 0u;
@@ -74,13 +74,13 @@ fn emission_at(pixel: vec2<i32>) -> vec3<f32> {
 #endif
 
 #ifdef ACCUMULATE
-// Sum over the samples so far, and their count.
+// Sum over the samples so far, and their number.
 @group(0) @binding(4) var sum_previous: texture_2d<f32>;
 @group(0) @binding(5) var sum_out: texture_storage_2d<rgba32float, write>;
 #endif
 #ifdef TARGET_F16
 @group(0) @binding(6) var target_out: texture_storage_2d<rgba16float, write>;
-// The largest number that the target holds.
+// Largest number that the target holds.
 const LIMIT: f32 = 65504.0;
 #else
 @group(0) @binding(6) var target_out: texture_storage_2d<rgba32float, write>;
@@ -97,7 +97,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
     var result = filtered_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
-    // Nothing was hit, so nothing was filtered: the host's sky.
+    // A pixel that hits nothing is not filtered. It shows the host's sky.
     if !hit {
         result = unpack_rgb(sample_at(pixel, hit));
     }
@@ -110,13 +110,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     result += emission_at(pixel);
 #endif
 #ifdef ACCUMULATE
-    // What is missing is no sample of the mean.
+    // A missing sample is no part of the mean.
     var sum = select(vec4(0.0), vec4(result, 1.0), is_sample(arrived));
     if frame.continued != 0u {
         sum += textureLoad(sum_previous, pixel, 0);
     }
     textureStore(sum_out, pixel, sum);
-    // Where there was none yet, what is left of it: the emission, or what is infinite.
+    // Without any sample so far, the pixel shows what is left of its own: the emission, or an infinite radiance.
     result = select(result, sum.xyz / max(sum.w, 1.0), sum.w > 0.0);
 #endif
     textureStore(target_out, pixel, vec4(min(result, vec3(LIMIT)), 1.0));

@@ -1,7 +1,7 @@
-// Which triangle each pixel sees, and everything that follows from knowing it: normal, depth, motion.
+// Finds the triangle that each pixel sees, and all that follows from it: normal, depth, motion.
 //
-// The visibility buffer holds one u32 per pixel; vertices come from the lookup table, for this frame and the previous
-// one. The motion is exact: the same barycentric weights on the previous frame's vertices, through the previous camera.
+// The visibility buffer holds one u32 per pixel. Vertices come from the lookup table, for this frame and for the previous one. The
+// motion is exact: the same barycentric weights on the previous frame's vertices, through the previous camera.
 
 #import asvgf::frame::{frame, direction, project, sample_point, inside}
 #import asvgf::ray::Ray
@@ -15,12 +15,12 @@
 #ifdef ALPHA_BLEND
 #import asvgf::texture::{cover_from, is_blended}
 #endif
-#import asvgf::packing::{pack_motion, pack_normal}
+#import asvgf::packing::{NOWHERE, pack_motion, pack_normal}
 
 @group(0) @binding(1) var visibility_out: texture_storage_2d<r32uint, write>;
-// Packed world normal; linear depth (f32 bits), 0 where nothing was hit.
+// Packed world normal; linear depth (f32 bits), 0 if nothing was hit.
 @group(0) @binding(2) var guide_out: texture_storage_2d<rg32uint, write>;
-// Previous − current position in pixels (x right, y down), then the depth that the point had in the previous camera.
+// Previous − current position in pixels (x right, y down), then the depth of the point in the previous camera.
 @group(0) @binding(3) var motion_out: texture_storage_2d<rg32uint, write>;
 #ifdef INSTANCED
 @group(0) @binding(4) var object_out: texture_storage_2d<r32uint, write>;
@@ -38,7 +38,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
     var hit = closest_hit(ray);
 #ifdef ALPHA_BLEND
-    // Surfaces that let most light through are seen where there is no other: a pixel that sees none is not filtered.
+    // Blended surfaces that let most light through are seen if there is no other: a pixel that sees none is not filtered.
     if hit.triangle == NO_TRIANGLE && is_blended {
         cover_from(0.0);
         hit = closest_hit(ray);
@@ -58,8 +58,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         id_seen = visibility_id(hit.triangle, hit.instance);
         object = hit.instance;
         guide = vec2(pack_normal(normal), bitcast<u32>(here.z));
-        // A point that was behind the previous camera has no place in its image: far outside.
-        motion = pack_motion(select(vec2(-1e9), before.xy - here.xy, before.z > 0.0), before.z);
+        // A point that was behind the previous camera has no place in its image.
+        motion = pack_motion(select(NOWHERE, before.xy - here.xy, before.z > 0.0), before.z);
     }
     textureStore(visibility_out, pixel, vec4(id_seen));
     textureStore(guide_out, pixel, vec4(guide, 0u, 0u));

@@ -1,5 +1,6 @@
-// For a host's own shaders: which surface to shade in a pixel, and with which random numbers. Bind `asvgf::Reshade`'s buffer as a
-// uniform AsvgfFrame and its textures as texture_2d<u32>, seed from (seed_pixel, seed_frame), and shade what is returned.
+// For a host's own shaders: tells which surface to shade in a pixel, and with which random numbers. Bind `asvgf::Reshade`'s buffer
+// as a uniform AsvgfFrame and its textures as texture_2d<u32>, seed from (seed_pixel, seed_frame), and shade the surface that
+// `asvgf_surface` returns.
 
 struct AsvgfCamera {
     eye: vec3<f32>,
@@ -14,7 +15,7 @@ struct AsvgfCamera {
     inverse_du: f32,
     dv: vec3<f32>,
     inverse_dv: f32,
-    // The eye, less that of this frame's camera.
+    // The eye less that of this frame's camera.
     offset: vec3<f32>,
 }
 
@@ -28,17 +29,19 @@ struct AsvgfFrame {
 }
 
 struct AsvgfSurface {
-    // Whether the pixel sees a surface at all. If not, nothing else here counts.
+    // True if the pixel sees a surface. If not, nothing else here counts.
     hit: bool,
     // Seed the random numbers from these two alone, in every pixel.
     seed_pixel: vec2<u32>,
     seed_frame: u32,
-    // Whether this repeats a path of the last frame. `seed_pixel` is then the pixel that saw the surface, for hosts that keep
-    // last frame's G-buffer: albedo and roughness are there.
+    // True if this repeats a path of the last frame. `seed_pixel` is then the pixel that saw the surface, for hosts that keep the
+    // last frame's G-buffer: the surface's albedo and roughness are there.
     repeats: bool,
-    // World space. Where the surface is in this frame; its normal to 10 bits a component; the eye that sees it.
+    // Place of the surface in this frame, in world space.
     position: vec3<f32>,
+    // Its normal, to 10 bits a component.
     normal: vec3<f32>,
+    // The eye that sees it.
     eye: vec3<f32>,
 }
 
@@ -49,18 +52,18 @@ fn asvgf_surface(
     shifts: texture_2d<u32>,
     pixel: vec2<u32>,
 ) -> AsvgfSurface {
-    // Packed normal and depth: of this pixel, or of the one whose path is repeated.
+    // Packed normal and depth, of this pixel or of the one whose path is repeated.
     var seen = textureLoad(guide, pixel, 0).xy;
     let stratum = pixel / 3u;
     let within = pixel - 3u * stratum;
-    let which = textureLoad(repeats, stratum, 0);
-    let again = which.x == within.y * 3u + within.x + 1u;
+    let repeat = textureLoad(repeats, stratum, 0);
+    let again = repeat.x == within.y * 3u + within.x + 1u;
     var from_pixel = pixel;
     var shift = vec3(0.0);
     var camera = frame.camera;
     if again {
-        from_pixel = vec2(which.y & 0xffffu, which.y >> 16u);
-        seen = which.zw;
+        from_pixel = vec2(repeat.y & 0xffffu, repeat.y >> 16u);
+        seen = repeat.zw;
         shift = bitcast<vec3<f32>>(textureLoad(shifts, stratum, 0).xyz);
         camera = frame.previous;
     }
@@ -68,7 +71,7 @@ fn asvgf_surface(
     let z = bitcast<f32>(seen.y);
     let point = vec2<f32>(from_pixel) + 0.5 + vec2(camera.jitter_x, camera.jitter_y);
     let spread = camera.corner + point.x * camera.du + point.y * camera.dv;
-    // In an orthographic view rays are parallel.
+    // In an orthographic view rays are parallel, and each has an origin of its own.
     let origin = camera.eye + camera.orthographic * (spread - camera.forward);
     let position = select(
         camera.eye + z * spread,

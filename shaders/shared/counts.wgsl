@@ -1,16 +1,16 @@
 #define_import_path asvgf::counts
 
-// How many pixels of the host's had to be cleaned. Mirrored by `InputCounts` in src/gpu/counts.rs.
+// Numbers of the host's pixels that had to be cleaned. Mirrored by `InputCounts` in src/gpu/counts.rs.
 struct Counts {
-    // A depth without a usable normal or motion.
+    // Pixels with a depth and without a usable normal or motion.
     surfaces: atomic<u32>,
-    // Something not finite in radiance, albedo or emission.
+    // Pixels with a number that is not finite in radiance, albedo or emission.
     non_finite: atomic<u32>,
-    // Something negative there.
+    // Pixels with a negative number there.
     negative: atomic<u32>,
     // Strata whose pair is not finite.
     pairs: atomic<u32>,
-    // Pixels whose sample was brighter than is believed.
+    // Pixels whose sample is brighter than is believed (outliers.wgsl).
     outliers: atomic<u32>,
 }
 

@@ -1,7 +1,7 @@
 #define_import_path asvgf::host_light
 
-// A host's light, cleaned before it reaches history: what ingest_radiance.wgsl stores, or (HOST_LIGHT) what others read
-// instead.
+// A host's light, cleaned before it reaches the history. ingest_radiance.wgsl stores it or, with HOST_LIGHT, other passes read it
+// from here.
 
 #import asvgf::color::{BRIGHTEST, is_finite, is_infinite, is_nan, sanitize}
 #import asvgf::packing::{INFINITE_SAMPLE, NO_SAMPLE, pack_rgb}
@@ -22,12 +22,12 @@
 #endif
 
 #ifdef DIAGNOSTICS
-// What was found in this pixel.
+// Faults found in this pixel.
 var<private> not_finite: bool = false;
 var<private> below_zero: bool = false;
 #endif
 
-// What an infinite channel becomes: the largest finite number of the 16-bit floats in which most renderers write.
+// Stands for an infinite channel: the largest finite number of the 16-bit floats in which most renderers write.
 const INFINITE: f32 = 65504.0;
 
 #ifdef DIAGNOSTICS
@@ -53,23 +53,25 @@ fn clean(color: vec3<f32>) -> vec3<f32> {
 }
 
 #ifdef ALBEDO
-// An albedo that divides is kept between these. Failure: Cycles' albedo of a metal is that of what a single path saw in it, with zeros and
-// values above 10; radiance over that was a firefly of 1000 times the light, and an image of a room twice as bright. Reason: such an albedo
-// is a random number itself. Rule: no surface reflects more than it receives, and hardly one, soot aside, less than 2 %. The filter blurs
-// the texture of what is darker with its light.
+// Limits of an albedo that divides. Failure: radiance over Cycles' albedo of a metal was a firefly of 1000 times the light, and the
+// image of a room was twice as bright. Reason: that albedo is what a single path saw in the metal, with zeros and values above 10,
+// so it is a random number itself. Rule: no surface reflects more than it receives, and hardly one, soot aside, less than 2 %. A
+// darker one has its texture blurred by the filter, together with its light.
 const LEAST_ALBEDO: f32 = 0.02;
 const MOST_ALBEDO: f32 = 1.0;
 
-// What the filtered radiance is multiplied with; `hit` where there is a surface. An albedo that is no number is unknown, and
-// divides by nothing.
+// Largest albedo that is stored, below the limit of f16.
+const MOST_STORED: f32 = 65472.0;
+
+// The albedo that the filtered radiance is multiplied by; `hit` is true where there is a surface. An albedo that is no number is
+// unknown and divides by nothing.
 fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
     let given = textureLoad(albedo, pixel, 0).xyz;
     let finite = are_finite(given);
 #ifdef DIAGNOSTICS
     count(given, finite);
 #endif
-    // Below the limit of f16.
-    var a = select(vec3(1.0), min(sanitize(given), vec3(65472.0)), finite);
+    var a = select(vec3(1.0), min(sanitize(given), vec3(MOST_STORED)), finite);
 #ifdef MODULATED
     a = select(vec3(1.0), clamp(a, vec3(LEAST_ALBEDO), vec3(MOST_ALBEDO)), hit);
 #endif
@@ -80,17 +82,20 @@ fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
 #ifdef MODULATED
 #ifdef ALBEDO
 #ifdef MISSING_SAMPLES
-// Neighbours with an albedo that make one of 0 a hole. Beside an edge along rows, columns or diagonals there are three at most.
+// Neighbours with an albedo that make a pixel with an albedo of 0 a hole. Beside an edge along rows, columns or diagonals there are
+// at most three.
 const AROUND_A_HOLE: u32 = 4u;
 
-// Whether a pixel without light is black by chance. Failure: one pixel in five of a metal had neither albedo nor light in each frame, as its
-// path saw nothing there; averaged as black and multiplied by such albedos, the metal was a fifth too dark. Ink darkened the paper
-// around it likewise. Reason: without an albedo, no light says nothing of the light that falls on a surface. Rule: it is no sample where
-// the surface around has an albedo. Black gloss, of which light is seen in few samples, has none around either.
+// True if a pixel without light is black by chance. Failure: one pixel in five of a metal had neither albedo nor light in each
+// frame, because its path saw nothing there. Averaged as black and multiplied by such albedos, the metal was a fifth too dark; ink
+// darkened the paper around it likewise. Reason: without an albedo, the lack of light tells nothing of the light that falls on a
+// surface. Rule: it is no sample if the surface around has an albedo. Black gloss, whose light is seen in few samples, has none
+// around either.
 fn is_hole(pixel: vec2<i32>, black: bool) -> bool {
     var reflecting = 0u;
     let taps = select(0, 9, black && all(textureLoad(albedo, pixel, 0).xyz == vec3(0.0)));
     for (var i = 0; i < taps; i++) {
+        // (i·11) >> 5 is i / 3 for i < 9.
         let row = (i * 11) >> 5u;
         let tap = pixel + vec2(i - 3 * row, row) - 1;
         let there = textureLoad(albedo, clamp(tap, vec2(0), vec2<i32>(frame.size) - 1), 0).xyz;
@@ -99,7 +104,8 @@ fn is_hole(pixel: vec2<i32>, black: bool) -> bool {
     return reflecting >= AROUND_A_HOLE;
 }
 
-// What the filtered light of a pixel is multiplied with, whose sample this is: what light the surface around sends into a hole stays dark.
+// The albedo that the filtered light of a pixel with this sample is multiplied by: 0 for a hole, which the light of the surface
+// around leaves dark.
 fn shown_albedo(pixel: vec2<i32>, hit: bool, arrived: vec2<u32>) -> vec3<f32> {
     return select(host_albedo(pixel, hit), vec3(0.0), is_hole(pixel, is_missing(arrived) && hit));
 }
@@ -113,8 +119,9 @@ fn host_emission(pixel: vec2<i32>) -> vec2<u32> {
 }
 #endif
 
-// The light alone, r = max(radiance − emission, 0) / divisor, the divisor being the albedo, if that is in it. What is no number
-// is no sample. What is infinite, and not by emission, is marked: shown where there is nothing else, it enters no average.
+// The light alone, r = max(radiance − emission, 0) / divisor, where the divisor is the albedo if the radiance holds it. A radiance
+// that is no number is no sample. One that is infinite, and not by emission, is marked: it is shown if there is nothing else, and
+// enters no mean.
 fn host_radiance(pixel: vec2<i32>, divisor: vec3<f32>) -> vec2<u32> {
     let given = textureLoad(radiance, pixel, 0).xyz;
     var r = clean(given);
@@ -146,7 +153,7 @@ fn host_radiance(pixel: vec2<i32>, divisor: vec3<f32>) -> vec2<u32> {
     return select(packed, NO_SAMPLE, missing);
 }
 
-// As `host_radiance`, by the pixel's own albedo.
+// `host_radiance`, divided by the pixel's own albedo.
 fn host_sample(pixel: vec2<i32>, hit: bool) -> vec2<u32> {
 #ifdef MODULATED
 #ifdef ALBEDO

@@ -1,24 +1,21 @@
 #define_import_path asvgf::host_motion
 
-// A host's motion, cleaned before it reaches history: what ingest_surface.wgsl stores, or (HOST_MOTION) what
-// temporal.wgsl reads instead.
+// A host's motion, cleaned before it reaches the history. ingest_surface.wgsl stores it or, with HOST_MOTION, temporal.wgsl reads
+// it from here.
 
 #import asvgf::frame::{frame, project, sample_point, seen_position}
 #import asvgf::color::is_finite
-#import asvgf::packing::pack_motion
+#import asvgf::packing::{NOWHERE, pack_motion}
 
 @group(0) @binding(23) var motion: texture_2d<f32>;
 #ifdef PREVIOUS_DEPTH
 @group(0) @binding(24) var previous_depth: texture_2d<f32>;
 #endif
 
-// Where a point is put that had no place in the previous image: far outside.
-const NOWHERE: vec2<f32> = vec2(-1e9);
-
 struct HostMotion {
     // See `pack_motion`.
     packed: vec2<u32>,
-    // Whether the host knows where the point was.
+    // True if the host knows where the point was.
     known: bool,
 }
 
@@ -29,7 +26,7 @@ fn host_motion(pixel: vec2<i32>, depth: f32) -> HostMotion {
     let before = textureLoad(previous_depth, pixel, 0).x;
     known &= is_finite(before);
 #else
-    // A point that does not move in depth but by the camera's motion.
+    // Without a depth, the point is taken to rest: the camera's motion alone changes its depth.
     let point = sample_point(frame.camera, vec2<f32>(pixel));
     let before = project(frame.previous, seen_position(frame.camera, point, depth)).z;
 #endif

@@ -1,12 +1,11 @@
 #define_import_path asvgf::packing
 
-// Three non-negative floats in 62 bits: a common 8-bit exponent and 18-bit mantissas. The range is that of f32 (steps of
-// 2⁻¹²⁶ … values of 2¹²⁶) and the largest channel is exact to 2⁻¹⁸; f16 would overflow at 65504, and a fed-back average in it
-// stall 2⁷ times earlier.
-// After the RGB9E5 format of EXT_texture_shared_exponent, with more of both.
+// Packs three non-negative floats into 62 bits: a common 8-bit exponent and 18-bit mantissas, after the RGB9E5 format of
+// EXT_texture_shared_exponent with more of both. The range is that of f32 (steps of 2⁻¹²⁶ … values of 2¹²⁶), and the largest
+// channel is exact to 2⁻¹⁸. f16 would overflow at 65504, and a fed-back mean in it would stall 2⁷ times earlier.
 fn pack_rgb(color: vec3<f32>) -> vec2<u32> {
     let largest = max(max(color.x, color.y), color.z);
-    // The largest channel is below 2^(exponent − 127), read from its bits.
+    // The largest channel is below 2^(exponent − 127); its exponent is read from its bits.
     let exponent = clamp(i32(bitcast<u32>(largest) >> 23u) + 1, 19, 253);
     let up = bitcast<f32>(u32(254 - exponent) << 23u) * 262144.0;
     let mantissa = vec3<u32>(clamp(color * up + 0.5, vec3(0.0), vec3(262143.0)));
@@ -25,25 +24,25 @@ fn unpack_rgb(bits: vec2<u32>) -> vec3<f32> {
     );
 }
 
-// What stands for a radiance where there is none: an exponent that no radiance has. Read as one, it is black.
+// Stands for a missing radiance: an exponent that no radiance has. Unpacked as a radiance, it is black.
 const NO_SAMPLE: vec2<u32> = vec2(0u, 0x400000u);
 
-// Marks a radiance that is infinite: the highest bit of the exponent, which `unpack_rgb` shifts out.
+// Marks an infinite radiance: the highest bit of the exponent, which `unpack_rgb` shifts out.
 const INFINITE_SAMPLE: u32 = 0x80000000u;
 
 fn is_missing(bits: vec2<u32>) -> bool {
     return bits.y == NO_SAMPLE.y;
 }
 
-// Whether it can be averaged.
+// True if a radiance can be averaged.
 fn is_sample(bits: vec2<u32>) -> bool {
     return !is_missing(bits) && bits.y < INFINITE_SAMPLE;
 }
 
-// A non-negative float in 16 bits: 6 of exponent, 10 of mantissa, 2⁻³¹ … 2³³, half an ulp 2⁻¹². It is f16 with the sign's bit
-// given to the exponent, made with integers because not every driver has pack2x16float.
+// Packs a non-negative float into 16 bits: 6 of exponent, 10 of mantissa, 2⁻³¹ … 2³³, half an ulp 2⁻¹². It is f16 whose sign bit
+// belongs to the exponent, made with integers because not every driver has pack2x16float.
 fn pack_unsigned(x: f32) -> u32 {
-    // Exponent bias 127 → 31.
+    // ×2⁻⁹⁶ moves the exponent's bias from 127 to 31; 8.5·10⁹ is just below 2³³.
     return (bitcast<u32>(clamp(x, 0.0, 8.5e9) * 1.262177e-29) + 0x1000u) >> 13u;
 }
 
@@ -51,7 +50,7 @@ fn unpack_unsigned(bits: u32) -> f32 {
     return bitcast<f32>(bits << 13u) * 7.922816e28;
 }
 
-// What the spatial filter carries from one iteration to the next: colour and standard deviation of its luminance.
+// Packs the data that the spatial filter carries from one iteration to the next: a colour and the standard deviation of its luminance.
 fn pack_tap(color: vec3<f32>, deviation: f32) -> vec2<u32> {
     return vec2(
         pack_unsigned(color.x) | (pack_unsigned(color.y) << 16u),
@@ -72,8 +71,8 @@ fn tap_variance(tap: vec2<u32>) -> f32 {
     return deviation * deviation;
 }
 
-// A unit vector as three signed 10-bit numbers (0.06° at worst). Unlike an octahedral map it needs no normalisation and
-// no branch to read back, and the à-trous filter reads it 52 times per pixel.
+// Packs a unit vector into three signed 10-bit numbers (0.06° off at worst). Unlike an octahedral map this needs no normalisation
+// and no branch to unpack, and the à-trous filter unpacks 52 per pixel.
 fn pack_normal(n: vec3<f32>) -> u32 {
     let q = vec3<i32>(round(clamp(n, vec3(-1.0), vec3(1.0)) * 511.0)) & vec3(0x3ff);
     return u32(q.x | (q.y << 10u) | (q.z << 20u));
@@ -89,7 +88,7 @@ fn unpack_normal(bits: u32) -> vec3<f32> {
     return unpack_normal_511(bits) * (1.0 / 511.0);
 }
 
-// A unit vector as two 16-bit numbers on the unfolded octahedron (Meyer et al. 2010, "On Floating-Point Normal Vectors").
+// Unpacks a unit vector from two 16-bit numbers on the unfolded octahedron (Meyer et al. 2010, "On Floating-Point Normal Vectors").
 fn unpack_octahedral(bits: u32) -> vec3<f32> {
     return octahedral(vec2(f32(bits & 0xffffu), f32(bits >> 16u)) * (2.0 / 65535.0) - 1.0);
 }
@@ -101,16 +100,20 @@ fn octahedral(e: vec2<f32>) -> vec3<f32> {
     return normalize(vec3(e - select(vec2(-fold), vec2(fold), e >= vec2(0.0)), z));
 }
 
-// Motion beyond this, in pixels, is stored as one that leads out of every image. 4096 is what 21 bits with a sign reach in steps
-// of 1/256.
-const FARTHEST: f32 = 4095.5;
+// Motion out of every image, in pixels: that of a point that had no place in the previous image.
+const NOWHERE: vec2<f32> = vec2(-1e6);
 
-// Motion in steps of 1/256 pixel (21 bits each), and the depth that the point had, as f32 without its sign and with 14 bits of
-// mantissa: 64 bits. A reprojected history is interpolated between pixels, which blurs a thousand times more than that rounds;
-// no motion is exactly none.
+// Motions from this length on, in pixels, are stored as −4096, the least number of 21 bits with a sign in steps of 1/256. It stands
+// for NOWHERE.
+const FARTHEST: f32 = 4095.5;
+const STORED_NOWHERE: f32 = -4096.0;
+
+// Packs a motion in steps of 1/256 pixel (21 bits each) and the depth that the point had, an f32 without its sign and with 14 bits
+// of mantissa, into 64 bits. A reprojected history is interpolated between pixels, which blurs a thousand times more than this
+// rounds; no motion is exactly none.
 fn pack_motion(motion: vec2<f32>, depth: f32) -> vec2<u32> {
     let near = all(abs(motion) < vec2(FARTHEST));
-    let q = vec2<u32>(vec2<i32>(round(select(vec2(-4096.0), motion, near) * 256.0))) & vec2(0x1fffffu);
+    let q = vec2<u32>(vec2<i32>(round(select(vec2(STORED_NOWHERE), motion, near) * 256.0))) & vec2(0x1fffffu);
     let z = (bitcast<u32>(clamp(depth, 0.0, 3e38)) + 0x100u) >> 9u;
     return vec2(q.x | (q.y << 21u), (q.y >> 11u) | (z << 10u));
 }
@@ -119,11 +122,11 @@ fn unpack_motion(bits: vec2<u32>) -> vec3<f32> {
     let q = vec2<i32>(vec2(bits.x << 11u, ((bits.x >> 10u) & 0x3ff800u) | (bits.y << 22u))) >> vec2(11u);
     let motion = vec2<f32>(q) * (1.0 / 256.0);
     let depth = bitcast<f32>((bits.y >> 10u) << 9u);
-    return vec3(select(motion, vec2(-1e6), motion.x == -4096.0), depth);
+    return vec3(select(motion, NOWHERE, motion.x == STORED_NOWHERE), depth);
 }
 
-// The nearest numbers with the 10-bit mantissa of f16, for values of f16's normal range: an rgba16float texture then holds
-// them exactly. (WebGPU's core has pack2x16float, but some drivers behind wgpu do not.)
+// Rounds to the nearest numbers with the 10-bit mantissa of f16, for values of f16's normal range: an rgba16float texture then
+// holds them exactly. (WebGPU's core has pack2x16float, but some drivers behind wgpu do not.)
 fn round_to_f16(x: vec3<f32>) -> vec3<f32> {
     return bitcast<vec3<f32>>((bitcast<vec3<u32>>(x) + 0x1000u) & vec3(0xffffe000u));
 }

@@ -1,10 +1,10 @@
 #define_import_path asvgf::random
 
-// Every random number is a pure function of (pixel, frame, sample, draw): a later frame can reproduce this frame's path
-// exactly, which is what the temporal gradient rests on, and no seed image is stored.
+// Every random number is a pure function of (pixel, frame, sample, draw). So a later frame can reproduce this frame's path exactly,
+// on which the temporal gradient depends, and no seed image is stored.
 
-// PCG-RXS-M-XS 32 (O'Neill 2014), used as a hash as Jarzynski and Olano recommend ("Hash Functions for GPU
-// Rendering", JCGT 9(3), 2020).
+// PCG-RXS-M-XS 32 (O'Neill 2014), used as a hash, as Jarzynski and Olano recommend ("Hash Functions for GPU Rendering", JCGT 9(3),
+// 2020).
 fn hash(x: u32) -> u32 {
     let state = x * 747796405u + 2891336453u;
     let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;

@@ -1,6 +1,7 @@
 #define_import_path asvgf::sample
 
-// A pixel's demodulated radiance in this frame: what the path tracer or ingest_radiance.wgsl left, or (HOST_LIGHT) the host's own.
+// A pixel's demodulated radiance in this frame: from the image of the path tracer or of ingest_radiance.wgsl or, with HOST_LIGHT,
+// from the host's own images.
 
 #ifdef HOST_LIGHT
 #import asvgf::host_light::host_sample
