@@ -1,8 +1,9 @@
-// One path (or a few) per pixel from the visible surface: next-event estimation and scattered rays, weighted against each
-// other (Veach 1997), Lambert and GGX. The result is demodulated; what is emitted towards the camera is kept apart.
+// Traces one path (or a few) per pixel from the visible surface, through Lambert and GGX surfaces. Next-event estimation and
+// scattered rays are weighted against each other (Veach 1997). The result is demodulated; emission towards the camera is stored
+// apart.
 //
-// The pixel that its stratum chose as gradient sample repeats last frame's path instead: last frame's surface point on this
-// frame's geometry, seen from last frame's camera, with last frame's random numbers, in this frame's light.
+// The pixel that its stratum chose as gradient sample repeats a path of the last frame instead: the last frame's surface point on
+// this frame's geometry, seen from the last frame's camera, with the last frame's random numbers, in this frame's light.
 
 #import asvgf::frame::{frame, direction, sample_point, inside, Camera}
 #import asvgf::random::{seed_of, uniform_float}
@@ -13,7 +14,7 @@
 #import asvgf::traverse::{closest_hit, occluded}
 #endif
 #import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at}
-#import asvgf::material::{Surface, surface_at, demodulation, scattering, sample_direction}
+#import asvgf::material::{LEAST_DEMODULATION, Surface, surface_at, demodulation, scattering, sample_direction}
 #import asvgf::light::{environment_radiance, environment_density, emitter_density}
 #ifdef LIGHTS
 #import asvgf::light::sample_light
@@ -37,7 +38,7 @@
 @group(0) @binding(9) var paths_out: texture_storage_2d<rgba32float, write>;
 #else
 @group(0) @binding(4) var radiance_out: texture_storage_2d<rg32uint, write>;
-// The albedo, and how many rays the pixel cost.
+// The albedo, and the number of rays that the pixel cost.
 @group(0) @binding(5) var albedo_out: texture_storage_2d<rgba16float, write>;
 #ifdef DIRECT_EMISSION
 @group(0) @binding(6) var emission_out: texture_storage_2d<rg32uint, write>;
@@ -52,10 +53,10 @@
 // The pixel's rays so far, the primary one included.
 var<private> rays: u32 = 1u;
 
-// The largest number of f16.
+// Most rays that are counted: the largest number of f16.
 const MOST_RAYS: f32 = 65504.0;
 
-// The surface that a pixel saw, placed where its triangle is now, seen as it was then.
+// The surface that a pixel saw, at its triangle's place now and seen from the camera that saw it.
 fn visible_surface(id: u32, camera: Camera, pixel: vec2<f32>, before: bool) -> Surface {
     let v = visible(id);
     let now = triangle_now(v);
@@ -73,20 +74,25 @@ fn visible_surface(id: u32, camera: Camera, pixel: vec2<f32>, before: bool) -> S
 #endif
 }
 
+// Limits of the probability with which a path survives Russian roulette. The lower one bounds the weight of a survivor; the upper
+// one ends every path sometime.
+const LEAST_SURVIVAL: f32 = 0.05;
+const MOST_SURVIVAL: f32 = 0.95;
+
 // Power heuristic with exponent 2 (Veach 1997, eq. 9.13).
 fn mis_weight(chosen: f32, other: f32) -> f32 {
     let a = chosen / max(other, 1e-30);
     return 1.0 - 1.0 / (1.0 + a * a);
 }
 
-// Radiance that the surface reflects towards the viewer, one path's estimate.
+// One path's estimate of the radiance that the surface reflects towards the viewer.
 fn path(first: Surface, seed: u32) -> vec3<f32> {
     var state = seed;
     var s = first;
     var throughput = vec3(1.0);
     var total = vec3(0.0);
     for (var bounce = 0u; bounce <= frame.bounces; bounce++) {
-        // Always the same number of draws, so that one light's change does not shift the others' random numbers.
+        // The number of draws per bounce is always the same, so that a change of one light does not shift the others' random numbers.
         let light_choice = uniform_float(&state);
         let light_u = vec2(uniform_float(&state), uniform_float(&state));
         let lobe = uniform_float(&state);
@@ -98,7 +104,7 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 #endif
 #ifdef LIGHTS
 #ifndef SCATTERED_RAYS_ONLY
-        // From where the ray starts, as even that small step is much of the way to a light nearby.
+        // The sample starts where the ray starts, because even that small step is much of the way to a light nearby.
         let light = sample_light(origin, light_choice, light_u);
         let towards = scattering(s, light.direction);
         let arriving = towards.value * light.radiance;
@@ -159,8 +165,8 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 #endif
 #endif
         if bounce >= frame.roulette {
-            // Russian roulette (Arvo and Kirk 1990) by what the path can still carry.
-            let p = clamp(max(max(throughput.x, throughput.y), throughput.z), 0.05, 0.95);
+            // Russian roulette (Arvo and Kirk 1990) by the light that the path can still carry.
+            let p = clamp(max(max(throughput.x, throughput.y), throughput.z), LEAST_SURVIVAL, MOST_SURVIVAL);
             if survival >= p {
                 break;
             }
@@ -171,18 +177,19 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 }
 
 #ifdef ALPHA_BLEND
-// Where a path begins that meets blended surfaces at random.
+// Start of a path that meets blended surfaces at random.
 struct Start {
     surface: Surface,
-    // What comes to the camera from there without a reflection, and whether that is all.
+    // Light that reaches the camera from there without a reflection.
     light: vec3<f32>,
+    // True if that is all of the path's light.
     ends: bool,
-    // Whether the ray has met a blended surface, which does not depend on the seed: before the first one nothing is random.
+    // True if the ray has met a blended surface. This does not depend on the seed, because nothing is random before the first one.
     blended: bool,
 }
 
-// The surface that this path of a pixel meets first. The visibility buffer has the same surface in each frame, so that the history
-// of a pixel is that of one surface; the light of the pixel is that of all surfaces that its ray may meet, colours included.
+// Finds the surface that this path of a pixel meets first. The visibility buffer has the same surface in each frame, so the history
+// of a pixel is that of one surface. The pixel's light is that of all surfaces that its ray may meet, colours included.
 fn start_of_path(seen: Surface, ray: Ray, seed: u32) -> Start {
     cover_at_random(seed);
     is_blended = false;
@@ -201,17 +208,24 @@ fn start_of_path(seen: Surface, ray: Ray, seed: u32) -> Start {
 #endif
 
 #ifdef ALPHA_BLEND
-// Surfaces behind each other whose colours are told apart.
+// Most surfaces behind each other whose colours are told apart.
 const MOST_LAYERS: u32 = 8u;
 
-// The albedo of a pixel that sees blended surfaces: those of all surfaces along its ray, each as much as it is seen, and white where light
-// comes without a reflection, from the sky and from what emits. It is the same in each frame, whichever of the surfaces a path begins on.
+// Part of the light behind the surfaces met so far below which farther ones are not looked for.
+const LEAST_UNCOVERED: f32 = 0.01;
+
+// Step behind a surface, in parts of the distance, for the ray to the next one.
+const STEP_BEHIND: f32 = 1e-5;
+
+// The albedo of a pixel that sees blended surfaces: the mean of those along its ray, each weighted by how much of it is seen, and
+// white for light that comes without a reflection, from the sky and from emitters. It is the same in each frame, whichever of the
+// surfaces a path begins on.
 fn blended_albedo(ray: Ray) -> vec3<f32> {
     cover_from(0.0);
     var origin = ray.origin;
     var uncovered = 1.0;
     var albedo = vec3(0.0);
-    for (var layer = 0u; layer < MOST_LAYERS && uncovered > 0.01; layer++) {
+    for (var layer = 0u; layer < MOST_LAYERS && uncovered > LEAST_UNCOVERED; layer++) {
         let hit = closest_hit(Ray(origin, ray.direction));
         rays += 1u;
         if hit.triangle == NO_TRIANGLE {
@@ -222,10 +236,10 @@ fn blended_albedo(ray: Ray) -> vec3<f32> {
         let covered = covered_at(hit.triangle, hit.barycentrics);
         albedo += uncovered * covered * select(demodulation(s), vec3(1.0), luminance(s.emission) > 0.0);
         uncovered *= 1.0 - covered;
-        // Behind the surface, by what keeps rays from meeting it again.
-        origin = s.position - s.margin * s.geometric + (1e-5 * hit.distance) * ray.direction;
+        // The margin that keeps rays from meeting the surface again, on its other side.
+        origin = s.position - s.margin * s.geometric + (STEP_BEHIND * hit.distance) * ray.direction;
     }
-    return round_to_f16(clamp(albedo + uncovered, vec3(1e-3), vec3(1.0)));
+    return round_to_f16(clamp(albedo + uncovered, vec3(LEAST_DEMODULATION), vec3(1.0)));
 }
 #endif
 
@@ -260,7 +274,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var albedo = demodulation(s);
     var emission = s.emission;
 #ifdef ALPHA_BLEND
-    // Their light comes from several surfaces.
+    // The light of blended surfaces comes from several of them, emission included.
     if start_of_path(s, ray, 0u).blended {
         albedo = blended_albedo(ray);
         emission = vec3(0.0);

@@ -6,12 +6,12 @@
 #import asvgf::material::{Surface, surface_at, demodulation, PI}
 #import asvgf::color::luminance
 
-// The talk's gradient function: deferred shading with the Blinn–Phong model (Blinn 1977). It casts no ray and has no noise;
-// it sees every change of a light's place and strength, and is blind to what blocks it.
+// The gradient function of Basci 2025: deferred shading with the Blinn–Phong model (Blinn 1977). It casts no ray and has no noise.
+// It sees every change of a light's place and strength, and is blind to what blocks it.
 
 struct AnalyticLight {
     position: vec3<f32>,
-    // 0: emitter, cosine lobe about `axis`; 1: point; 2: directional.
+    // 0: emitter, a cosine lobe about `axis`; 1: point; 2: directional.
     kind: u32,
     axis: vec3<f32>,
     range: f32,
@@ -41,13 +41,16 @@ fn incident(light: AnalyticLight, way: vec3<f32>) -> vec3<f32> {
     return light.intensity * (clamp(1.0 - ratio * ratio, 0.0, 1.0) * cone * cone / squared);
 }
 
+// Greatest exponent: a mirror still has a highlight to compare.
+const SHARPEST: f32 = 128.0;
+
 fn shade(s: Surface, light: AnalyticLight) -> vec3<f32> {
     let way = select(light.position - s.position, -light.axis, light.kind == 2u);
     let l = normalize(way);
     let cosine = max(dot(s.normal, l), 0.0);
 #ifdef SPECULAR
-    // Blinn's exponent for a GGX width (Karis 2013), capped so that a mirror still has a highlight to compare.
-    let exponent = clamp(2.0 / (s.alpha * s.alpha) - 2.0, 1.0, 128.0);
+    // Blinn's exponent for a GGX width (Karis 2013).
+    let exponent = clamp(2.0 / (s.alpha * s.alpha) - 2.0, 1.0, SHARPEST);
     let highlight = pow(max(dot(s.normal, normalize(l + s.view)), 0.0), exponent) * (exponent + 8.0) / (8.0 * PI);
     let reflected = (s.diffuse / PI + s.reflectance * highlight) / demodulation(s);
 #else
@@ -56,7 +59,7 @@ fn shade(s: Surface, light: AnalyticLight) -> vec3<f32> {
     return reflected * incident(light, way) * cosine;
 }
 
-// Luminance of last frame's visible surface in this frame's light and in last frame's, demodulated.
+// Demodulated luminance of the last frame's visible surface in this frame's light and in the last frame's.
 fn shade_pair(id: u32, pixel: vec2<i32>) -> vec2<f32> {
     if id == NO_TRIANGLE {
         return vec2(0.0);

@@ -1,11 +1,12 @@
 #define_import_path asvgf::few_triangles
 
 #import asvgf::scene::NO_TRIANGLE
-#import asvgf::ray::{Ray, Hit, MISS}
+#import asvgf::ray::{Ray, Hit, MISS, OVER_EDGE}
 
-// Rays through a scene of a few dozen triangles: each is tested, and there is no tree. For adapters that run eight or more
-// invocations in lockstep on a CPU: down a tree they wait for each other, here they never part, and a triangle's numbers are
-// loaded once for all of them. Written out, not looped, as only a constant index is known to be the same for all.
+// Rays through a scene of a few dozen triangles: each triangle is tested, and there is no tree. This is for adapters that run eight
+// or more invocations in lockstep on a CPU. Down a tree they wait for each other; here they never part, and a triangle's numbers
+// are loaded once for all of them. The tests are written out and not looped, because only a constant index is known to be the same
+// for all.
 
 // A triangle's plane and the linear maps from it to barycentric weights (compare Baldwin and Weber 2016, "Fast Ray-Triangle
 // Intersections by Coordinate Transformation"): for a point p of the plane, u = to_u·(p − corner) and v = to_v·(p − corner).
@@ -25,7 +26,7 @@ struct Facet {
 @group(1) @binding(9) var<uniform> facet_owners: array<vec4<u32>, #{TRIANGLE_COUNT}>;
 #endif
 
-// The facets as each invocation keeps them: inside a branch or a loop, a read of a uniform is done lane by lane.
+// Each invocation's own copy of the facets: inside a branch or a loop, a uniform is read lane by lane.
 var<private> kept: array<Facet, #{TRIANGLE_COUNT}>;
 
 fn keep_eight(i: u32) {
@@ -39,7 +40,7 @@ fn keep_eight(i: u32) {
     kept[i + 7u] = facets[i + 7u];
 }
 
-// To be called once, before any branch.
+// Copies the facets. To be called once, before any branch.
 fn prepare_traversal() {
     keep_eight(0u);
 #if TRIANGLE_COUNT > 8
@@ -65,7 +66,7 @@ fn prepare_traversal() {
 #endif
 }
 
-// What a ray has met so far.
+// The nearest hit of a ray so far.
 struct Nearest {
     distance: f32,
     facet: u32,
@@ -78,7 +79,7 @@ struct Meeting {
     inside: bool,
 }
 
-// Where a ray meets a facet. Triangles reach a millionth over their edges, so that no ray falls between two that share one.
+// Finds where a ray meets a facet.
 fn meet(facet: Facet, origin: vec3<f32>, direction: vec3<f32>, limit: f32) -> Meeting {
     let normal = vec3(facet.a.w, facet.b.xy);
     let from_corner = origin - facet.a.xyz;
@@ -87,8 +88,8 @@ fn meet(facet: Facet, origin: vec3<f32>, direction: vec3<f32>, limit: f32) -> Me
     let p = from_corner + t * direction;
     let u = dot(vec3(facet.b.zw, facet.c.x), p);
     let v = dot(facet.c.yzw, p);
-    // A slope of 0, where t is not a number, is excluded by itself. `&`, as `&&` would branch.
-    let inside = (slope != 0.0) & (u >= -1e-6) & (v >= -1e-6) & (u + v <= 1.000001) & (t > 0.0) & (t < limit);
+    // A slope of 0, where t is not a number, is excluded by itself. `&` is used because `&&` would branch.
+    let inside = (slope != 0.0) & (u >= -OVER_EDGE) & (v >= -OVER_EDGE) & (u + v <= 1.0 + OVER_EDGE) & (t > 0.0) & (t < limit);
     return Meeting(t, vec2(u, v), inside);
 }
 
@@ -110,7 +111,8 @@ fn test_eight(nearest: ptr<function, Nearest>, origin: vec3<f32>, direction: vec
     test(nearest, origin, direction, i + 7u);
 }
 
-// Not the nearest one and a comparison: a limit that stays, and nothing to remember, make tracing 6 % faster.
+// Tests against a limit that stays, instead of finding the nearest hit and comparing it: with nothing to remember, tracing is 6 %
+// faster.
 fn blocked_by_eight(origin: vec3<f32>, direction: vec3<f32>, limit: f32, i: u32) -> bool {
     return meet(kept[i], origin, direction, limit).inside
         | meet(kept[i + 1u], origin, direction, limit).inside
@@ -157,7 +159,7 @@ fn closest_hit(ray: Ray) -> Hit {
     return hit;
 }
 
-// Whether something lies on the open segment from the origin to `limit`.
+// True if something lies on the open segment from the origin to `limit`.
 fn occluded(ray: Ray, limit: f32) -> bool {
     var blocked = blocked_by_eight(ray.origin, ray.direction, limit, 0u);
 #if TRIANGLE_COUNT > 8

@@ -16,26 +16,30 @@ const POINT: u32 = 1u;
 const DIRECTIONAL: u32 = 2u;
 const ENVIRONMENT: u32 = 3u;
 
-// How much of the way to a light has to be free: all but a part in 10⁴, so that it does not shadow itself.
-const SHORT: f32 = 0.9999;
+// Part of the way to a light that has to be free: all but a part in 10⁴, so that the light does not shadow itself.
+const FREE_PART: f32 = 0.9999;
 
-// A way from a surface to a light.
+// Stands for the distance of a light at infinity.
+const AT_INFINITY: f32 = 1e30;
+
+// A sampled way from a surface to a light.
 struct LightSample {
-    // Unit direction towards the light, and how far it is.
+    // Unit direction towards the light.
     direction: vec3<f32>,
+    // Distance of the light.
     distance: f32,
-    // How far a ray may go without meeting the light itself.
+    // Distance that a ray may go without meeting the light itself.
     reach: f32,
     // Radiance (or intensity over squared distance) that arrives.
     radiance: vec3<f32>,
-    // Solid-angle density, the choice of the light included. For a light without area the choice alone.
+    // Solid-angle density, the choice of the light included; for a light without area, the probability of the choice alone.
     density: f32,
-    // Whether a scattered ray could have found this light.
+    // True if a scattered ray could have found this light.
     has_area: bool,
 }
 
-// The choice depends on `u` and the table alone. The table follows from nominal, not momentary, intensities, so that
-// switching one light leaves every other light's random numbers, and with them its gradient, as they were.
+// Chooses a light. The choice depends on `u` and the table alone, and the table on nominal, not momentary, intensities. So a light
+// that is switched leaves every other light's random numbers, and with them its gradient, as they were.
 fn choose_light(u: f32) -> u32 {
     let scaled = u * f32(scene.light_count);
     let entry = min(u32(scaled), scene.light_count - 1u);
@@ -52,7 +56,7 @@ fn environment_texel(direction: vec3<f32>) -> vec2<u32> {
     return vec2(x, y);
 }
 
-// Half of it is packed, as that format ends at half of the largest f32.
+// Half of the radiance is packed, because that format ends at half of the largest f32.
 fn texel_radiance(texel: vec2<u32>) -> vec3<f32> {
     return 2.0 * unpack_rgb(textureLoad(environment, texel, 0).xy);
 }
@@ -94,9 +98,10 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         s.direction = way / s.distance;
         let surface = surface_at(v, t, weights, s.direction);
         s.radiance = surface.emission;
-        // A part in 10⁴ alone is less than the error of the light's plane, where that is far from the scene's centre and near to what it lights.
+        // A part in 10⁴ alone is less than the error of the light's plane, if that is far from the scene's centre and near to what
+        // it lights.
         let cosine = abs(dot(surface.geometric, s.direction));
-        s.reach = s.distance * SHORT - dot(abs(surface.geometric), rounding_error(t, v)) / max(cosine, 1e-6);
+        s.reach = s.distance * FREE_PART - dot(abs(surface.geometric), rounding_error(t, v)) / max(cosine, 1e-6);
         s.density = emitter_density(index, t, s.direction, s.distance);
         s.has_area = true;
         return s;
@@ -104,9 +109,9 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
 #endif
 #ifdef ENVIRONMENT_LIGHT
     if light.kind == ENVIRONMENT {
-        // Alias table over cells, then along the cell's texels, then uniform in solid angle within the texel. The 24 bits of a
-        // number would be used up by choosing one of a million cells, and the thresholds of the dark ones below the last of them:
-        // a hash of both numbers gives 32 more.
+        // Alias table over cells, then along the cell's texels, then uniform in solid angle within the texel. The choice of one of
+        // a million cells, and the thresholds of the dark ones below the last of them, would use up the 24 bits of one number: a
+        // hash of both numbers gives 32 more.
         let more = hash(bitcast<u32>(u.x) ^ hash(bitcast<u32>(u.y)));
         let number = u32(u.x * 16777216.0);
         let bits = scene.environment_cells & 255u;
@@ -131,7 +136,7 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
             share -= brightness;
             column += 1u;
         }
-        // The rest of the number is as good as new.
+        // The rest of the number is as good as a new one.
         let rest = select((within - threshold) / max(1.0 - threshold, 1e-9), within / max(threshold, 1e-9), kept);
         let x = f32(column) + clamp(rest, 0.0, 0.999999);
         let low = cos(PI * f32(row) / f32(scene.environment_height));
@@ -140,7 +145,7 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         let azimuth = (x / f32(scene.environment_width) - 0.5) * 2.0 * PI;
         let radius = sqrt(max(1.0 - y * y, 0.0));
         s.direction = vec3(radius * cos(azimuth), y, radius * sin(azimuth));
-        s.distance = 1e30;
+        s.distance = AT_INFINITY;
         s.reach = s.distance;
         s.density = environment_density(s.radiance);
         s.has_area = true;
@@ -153,7 +158,7 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
     s.density = light.pmf;
     if light.kind == DIRECTIONAL {
         s.direction = -light.axis;
-        s.distance = 1e30;
+        s.distance = AT_INFINITY;
         s.reach = s.distance;
         s.radiance = light.intensity;
         return s;
@@ -162,7 +167,7 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
     let squared = max(dot(way, way), 1e-30);
     s.distance = sqrt(squared);
     s.direction = way / s.distance;
-    s.reach = s.distance * SHORT;
+    s.reach = s.distance * FREE_PART;
     let ratio = s.distance / light.range;
     let fade = clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
     let cone = clamp(-dot(light.axis, s.direction) * light.spot_scale + light.spot_offset, 0.0, 1.0);

@@ -16,11 +16,11 @@ const PI: f32 = 3.14159265358979;
 // A point that light meets, with all that its scattering depends on.
 struct Surface {
     position: vec3<f32>,
-    // How far from it along `geometric` a ray may start.
+    // Distance from the surface along `geometric` at which a ray may start.
     margin: f32,
     geometric: vec3<f32>,
     normal: vec3<f32>,
-    // Unit vector towards where the ray came from.
+    // Unit vector against the ray that met the point.
     view: vec3<f32>,
     diffuse: vec3<f32>,
     emission: vec3<f32>,
@@ -29,10 +29,13 @@ struct Surface {
     reflectance: vec3<f32>,
     // Reflectance at grazing incidence.
     edge: f32,
-    // GGX width, the square of the perceptual roughness.
+    // GGX width α, the square of the perceptual roughness.
     alpha: f32,
 #endif
 }
+
+// Least GGX width: below it a lobe is narrower than a float resolves.
+const LEAST_WIDTH: f32 = 1e-3;
 
 fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f32>) -> Surface {
     let m = load_material(geometry_word(v.row * 3u).w);
@@ -94,29 +97,34 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     let lit = select(1.0, 0.0, (flags & UNLIT) != 0u);
     s.reflectance = mix(specular, base, metallic) * lit;
     s.edge = mix(edge, 1.0, metallic) * lit;
-    // Below this width a lobe is narrower than a float resolves.
-    s.alpha = max(roughness * roughness, 1e-3);
+    s.alpha = max(roughness * roughness, LEAST_WIDTH);
 #else
     s.diffuse = base;
 #endif
     return s;
 }
 
-// What the filtered radiance is divided by, and multiplied with again at the end: the reflectance of the surface, floored so
-// that the quotient stays bounded, as the f16 texture between keeps it.
+// Least reflectance that divides, so that the quotient stays bounded.
+const LEAST_DEMODULATION: f32 = 1e-3;
+
+// The demodulation: the filtered radiance is divided by the surface's reflectance, and multiplied by it again at the end. It is
+// rounded as the f16 texture in between stores it.
 fn demodulation(s: Surface) -> vec3<f32> {
 #ifdef SPECULAR
     let reflectance = s.diffuse + s.reflectance;
 #else
     let reflectance = s.diffuse;
 #endif
-    return round_to_f16(clamp(reflectance, vec3(1e-3), vec3(1.0)));
+    return round_to_f16(clamp(reflectance, vec3(LEAST_DEMODULATION), vec3(1.0)));
 }
 
 #ifdef SPECULAR
+// Part of the normal reflectance, 1/50, at which the grazing reflectance is full: without the one there is not the other either.
+const GRAZING: f32 = 50.0;
+
+// Schlick 1994.
 fn fresnel(f0: vec3<f32>, edge: f32, cosine: f32) -> vec3<f32> {
-    // Schlick 1994; without a mirror reflectance there is no grazing reflectance either.
-    let grazing = min(50.0 * max(max(f0.x, f0.y), f0.z), edge);
+    let grazing = min(GRAZING * max(max(f0.x, f0.y), f0.z), edge);
     let k = clamp(1.0 - cosine, 0.0, 1.0);
     let k2 = k * k;
     return f0 + (vec3(grazing) - f0) * (k2 * k2 * k);
@@ -135,6 +143,10 @@ fn smith(cosine: f32, alpha: f32) -> f32 {
     return 0.5 * (sqrt(1.0 + alpha * alpha * max(1.0 - c2, 0.0) / max(c2, 1e-12)) - 1.0);
 }
 
+// Limits of the probability with which the specular lobe is sampled, where both lobes exist.
+const LEAST_SHARE: f32 = 0.1;
+const MOST_SHARE: f32 = 0.9;
+
 // Probability with which the specular lobe is sampled.
 fn specular_share(s: Surface) -> f32 {
     let specular = luminance(fresnel(s.reflectance, s.edge, max(dot(s.normal, s.view), 0.0)));
@@ -145,9 +157,12 @@ fn specular_share(s: Surface) -> f32 {
     if diffuse <= 0.0 {
         return 1.0;
     }
-    return clamp(specular / (specular + diffuse), 0.1, 0.9);
+    return clamp(specular / (specular + diffuse), LEAST_SHARE, MOST_SHARE);
 }
 #endif
+
+// Least n·v, so that quotients by it stay finite.
+const LEAST_COSINE: f32 = 1e-4;
 
 struct Scattering {
     // BSDF times cosine.
@@ -158,14 +173,14 @@ struct Scattering {
 
 fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
     let cosine = dot(s.normal, light);
-    // Light must arrive above the true surface as well as above the interpolated one.
+    // Light must arrive above the true surface and above the interpolated one.
     if cosine <= 0.0 || dot(s.geometric, light) <= 0.0 {
         return Scattering(vec3(0.0), 0.0);
     }
 #ifdef SPECULAR
     let share = specular_share(s);
     let half_vector = normalize(s.view + light);
-    let nv = max(dot(s.normal, s.view), 1e-4);
+    let nv = max(dot(s.normal, s.view), LEAST_COSINE);
     let nh = clamp(dot(s.normal, half_vector), 0.0, 1.0);
     let f = fresnel(s.reflectance, s.edge, dot(s.view, half_vector));
     let d = distribution(nh, s.alpha);
@@ -189,14 +204,14 @@ fn tangents(n: vec3<f32>) -> mat2x3<f32> {
     return mat2x3(vec3(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), vec3(b, sign + n.y * n.y * a, -n.y));
 }
 
-// A direction by the density of `scattering`: cosine-weighted, or about a visible normal of the GGX distribution.
+// Samples a direction by the density of `scattering`: cosine-weighted, or about a visible normal of the GGX distribution.
 fn sample_direction(s: Surface, u: vec2<f32>, choice: f32) -> vec3<f32> {
     let t = tangents(s.normal);
     let angle = 2.0 * PI * u.x;
 #ifdef SPECULAR
     if choice < specular_share(s) {
         // Spherical caps (Dupuy and Benyoub 2023).
-        let v = vec3(dot(s.view, t[0]), dot(s.view, t[1]), max(dot(s.view, s.normal), 1e-4));
+        let v = vec3(dot(s.view, t[0]), dot(s.view, t[1]), max(dot(s.view, s.normal), LEAST_COSINE));
         let stretched = normalize(vec3(v.xy * s.alpha, v.z));
         let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
         let r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));

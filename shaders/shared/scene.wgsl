@@ -1,7 +1,7 @@
 #define_import_path asvgf::scene
 
-// The scene as src/scene/gpu/assembly.rs lays it out: the visibility lookup table of triangle vertices, the BVH that obvhs
-// builds, placements, surfaces and lights.
+// The scene as src/scene/gpu/assembly.rs lays it out: the visibility lookup table of triangle vertices, the BVH that obvhs builds,
+// placements, surfaces and lights.
 
 struct Scene {
     // Texel of `geometry` at which the instances' records begin.
@@ -14,43 +14,44 @@ struct Scene {
     environment_height: u32,
     // log₂ of the texels of a cell of `environment_table`.
     environment_run: u32,
-    // log₂ of all cells, and 8 bits up that of the cells of a row.
+    // log₂ of the number of cells and, 8 bits up, of the cells of a row.
     environment_cells: u32,
-    // Words per triangle in `attributes`, and where the two sets of texture coordinates begin in them.
+    // Words per triangle in `attributes`.
     attribute_stride: u32,
+    // Offsets of the two sets of texture coordinates in them.
     uv_first: u32,
     uv_second: u32,
     // Solid-angle density of sampling a direction through the environment light, per unit of its luminance there.
     environment_density: f32,
     // Grid of the boxes of the one tree, or of the top level.
     grid_base: vec3<f32>,
-    // Where rays start: the root of the one tree, or of the top level.
+    // Node at which rays start: the root of the one tree, or of the top level.
     root: u32,
     grid_step: vec3<f32>,
-    // Where the colours of the vertices begin in `attributes`.
+    // Offset of the vertex colours in `attributes`.
     color_first: u32,
 }
 
 @group(1) @binding(0) var<uniform> scene: Scene;
 // The visibility lookup table (three texels per triangle, a vertex and one word each: material, emitter number + 1, unused); with
-// INSTANCED the top level and the instances' records; trees. A row of texels folded into a texture, as texture fetches of four
-// words are faster than buffer reads on every adapter that was tried.
+// INSTANCED, the top level and the instances' records; trees. It is a row of texels folded into a texture, because texture fetches
+// of four words were faster than buffer reads on every adapter that was tried.
 #ifdef STORAGE_READS
 @group(1) @binding(1) var geometry: texture_storage_2d<rgba32uint, read>;
 #else
 @group(1) @binding(1) var geometry: texture_2d<u32>;
 #endif
 #ifdef INSTANCED
-// Where the instances were in the last frame, three rows of an affine map each.
+// Placements of the instances in the last frame, three rows of an affine map each.
 @group(1) @binding(2) var<storage, read> placements_previous: array<vec4<f32>>;
 #endif
-// Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates, then three
-// colours of four 16-bit numbers.
+// Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates, then three colours of four
+// 16-bit numbers.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
 // Materials and lights, the structs below texel by texel.
 @group(1) @binding(5) var materials: texture_2d<u32>;
 @group(1) @binding(6) var lights: texture_2d<u32>;
-// RGBA8 texels of all images; folded into layers as in src/scene/gpu/surface/places.rs where a buffer cannot hold them.
+// RGBA8 texels of all images, folded into layers as in src/scene/texels.rs if a buffer cannot hold them.
 #ifdef FOLDED_IMAGES
 @group(1) @binding(7) var images: texture_2d_array<u32>;
 #else
@@ -58,7 +59,7 @@ struct Scene {
 #endif
 // Radiances, packed as in src/scene/gpu/light/radiance.rs.
 @group(1) @binding(10) var environment: texture_2d<u32>;
-// Alias table over the cells of the environment: threshold, the other cell, luminance of this cell and of that.
+// Alias table over the cells of the environment: threshold, the other cell, luminance of this cell and of the other.
 @group(1) @binding(11) var environment_table: texture_2d<u32>;
 
 struct TextureUse {
@@ -66,8 +67,8 @@ struct TextureUse {
     first: u32,
     width: u32,
     height: u32,
-    // Bits 0–1 and 2–3: wrap of u and of v (0 repeat, 1 mirror, 2 clamp). Bit 4: nearest. Bit 5: second uv set.
-    // Bit 31: there is a texture.
+    // Bits 0–1 and 2–3: wrap of u and of v (0 repeat, 1 mirror, 2 clamp). Bit 4: nearest. Bit 5: second set of coordinates. Bit 31:
+    // there is a texture.
     mode: u32,
     row_u: vec4<f32>,
     row_v: vec4<f32>,
@@ -76,7 +77,7 @@ struct TextureUse {
 struct Material {
     base_color: vec4<f32>,
     emissive: vec3<f32>,
-    // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: back faces do not exist. Bit 3: covers as much as its opacity.
+    // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: has no back faces. Bit 3: blended, covers as much as its opacity.
     flags: u32,
     metallic: f32,
     roughness: f32,
@@ -101,7 +102,7 @@ const CULLED: u32 = 4u;
 const BLENDED: u32 = 8u;
 
 struct Light {
-    // See light.wgsl.
+    // Kind, see light.wgsl.
     kind: u32,
     // Alias table over all lights (Walker 1974, Vose 1991): keep this entry below `threshold`, else take `alias_index`.
     alias_index: u32,
@@ -125,7 +126,7 @@ struct Light {
 
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
-// Width of the folded textures, as in src/scene/gpu/memory/folded.rs.
+// Texel i of a folded texture, whose rows hold 4096 as in src/scene/folded.rs.
 fn geometry_word(i: u32) -> vec4<u32> {
 #ifdef STORAGE_READS
     return textureLoad(geometry, vec2(i & 4095u, i >> 12u));
@@ -156,7 +157,7 @@ fn texture_use(first: u32) -> TextureUse {
     return TextureUse(image.x, image.y, image.z, image.w, row_u, bitcast<vec4<f32>>(material_word(first + 2u)));
 }
 
-// What of it is not used is not fetched.
+// Loads a material. Parts that the shader does not use are not fetched, because the compiler drops them.
 fn load_material(i: u32) -> Material {
     let first = i * 19u;
     let emission = material_word(first + 1u);
@@ -202,7 +203,7 @@ fn transform_vector(m: Placement, v: vec3<f32>) -> vec3<f32> {
     return vec3(dot(m.x.xyz, v), dot(m.y.xyz, v), dot(m.z.xyz, v));
 }
 
-// The transpose applied to a covector: a normal goes from object to world by the inverse's transpose.
+// Applies the transpose to a covector: a normal goes from object to world by the inverse's transpose.
 fn transform_normal(inverse: Placement, n: vec3<f32>) -> vec3<f32> {
     return inverse.x.xyz * n.x + inverse.y.xyz * n.y + inverse.z.xyz * n.z;
 }
@@ -231,19 +232,19 @@ fn previous_object_to_world(instance: u32) -> Placement {
 }
 #endif
 
-// Grid of the boxes of the instance's tree: where it begins, and its step.
+// Grid of the boxes of the instance's tree: its origin and its step.
 fn instance_grid(instance: u32) -> mat2x3<f32> {
     let first = scene.instances + instance * 10u + 6u;
     return mat2x3(bitcast<vec3<f32>>(geometry_word(first).xyz), bitcast<vec3<f32>>(geometry_word(first + 1u).xyz));
 }
 
-// Root node of the mesh's tree; the instance's first number in the visibility buffer; its first light; its mesh's first row
-// of the lookup table, doubled, plus 1 where the placement mirrors.
+// Root node of the mesh's tree; the instance's first number in the visibility buffer; its first light; its mesh's first row of the
+// lookup table, doubled, plus 1 if the placement mirrors.
 fn instance_numbers(instance: u32) -> vec4<u32> {
     return geometry_word(scene.instances + instance * 10u + 8u);
 }
 
-// How far rounding may shift a point along each axis of the world on its way into the instance's space.
+// Bound on the error by which rounding shifts a point along each axis of the world on its way into the instance's space.
 fn instance_error(instance: u32) -> vec3<f32> {
     return bitcast<vec3<f32>>(geometry_word(scene.instances + instance * 10u + 9u).xyz);
 }

@@ -3,17 +3,18 @@
 #import asvgf::scene::{scene, geometry_word, attributes, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, instance_error, NO_TRIANGLE}
 #import asvgf::packing::unpack_octahedral
 
-// A point of the scene as the visibility buffer names it.
+// A triangle of the scene as the visibility buffer names it.
 struct Visible {
-    // Row of the visibility lookup table, and whose it is.
+    // Row of the visibility lookup table.
     row: u32,
+    // The instance that it belongs to.
     instance: u32,
 }
 
-// The visibility buffer numbers the triangles of all instances in one sequence.
+// The triangle of a number of the visibility buffer, which numbers the triangles of all instances in one sequence.
 fn visible(id: u32) -> Visible {
 #ifdef INSTANCED
-    // The last instance whose first number is not above `id`.
+    // Binary search for the last instance whose first number is not above `id`.
     var low = 0u;
     var high = scene.instance_count;
     for (var i = 0u; i < 32u && high - low > 1u; i++) {
@@ -76,8 +77,8 @@ fn triangle_before(v: Visible) -> Triangle {
 #endif
 }
 
-// Barycentric weights of `b` and `c` at the point where a ray meets the triangle's plane, as ratios of areas: each weight
-// is the area of the triangle that the point forms with the opposite edge, over the whole.
+// Barycentric weights of `b` and `c` at the point where a ray meets the triangle's plane, as ratios of areas: that of the triangle
+// between the point and the opposite edge over the whole.
 fn barycentrics(t: Triangle, origin: vec3<f32>, direction: vec3<f32>) -> vec2<f32> {
     let normal = cross(t.b - t.a, t.c - t.a);
     let squared_area = dot(normal, normal);
@@ -88,7 +89,7 @@ fn barycentrics(t: Triangle, origin: vec3<f32>, direction: vec3<f32>) -> vec2<f3
     let p = origin + direction * (dot(normal, t.a - origin) / slope);
     let weight_b = dot(cross(t.a - t.c, p - t.c), normal) / squared_area;
     let weight_c = dot(cross(t.b - t.a, p - t.a), normal) / squared_area;
-    // The ray did hit this triangle; outside it there is only rounding.
+    // The ray did hit this triangle, so a weight is outside of 0…1 by rounding alone.
     let b = clamp(weight_b, 0.0, 1.0);
     return vec2(b, clamp(weight_c, 0.0, 1.0 - b));
 }
@@ -97,7 +98,7 @@ fn at(t: Triangle, weights: vec2<f32>) -> vec3<f32> {
     return t.a + weights.x * (t.b - t.a) + weights.y * (t.c - t.a);
 }
 
-// Unit normal of the side from which `direction` arrives; opposes the direction for a degenerate triangle.
+// Unit normal of the side from which `direction` arrives. For a degenerate triangle it opposes the direction.
 fn geometric_normal(t: Triangle, direction: vec3<f32>) -> vec3<f32> {
     let n = cross(t.b - t.a, t.c - t.a);
     let squared = dot(n, n);
@@ -108,7 +109,7 @@ fn geometric_normal(t: Triangle, direction: vec3<f32>) -> vec3<f32> {
     return select(unit, -unit, dot(unit, direction) > 0.0);
 }
 
-// Whether a ray in this direction meets the front face (counter-clockwise in the mesh's own orientation).
+// True if a ray in this direction meets the front face (counter-clockwise in the mesh's own orientation).
 fn is_front(t: Triangle, v: Visible, direction: vec3<f32>) -> bool {
     var front = dot(cross(t.b - t.a, t.c - t.a), direction) < 0.0;
 #ifdef INSTANCED
@@ -120,7 +121,7 @@ fn is_front(t: Triangle, v: Visible, direction: vec3<f32>) -> bool {
     return front;
 }
 
-// Interpolated normal, on the side of `geometric`; that normal itself where the mesh has none.
+// Interpolated normal, on the side of `geometric`; `geometric` itself if the mesh has no normals.
 fn shading_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
 #ifdef SHADING_NORMALS
     let first = v.row * scene.attribute_stride;
@@ -145,12 +146,13 @@ fn shading_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<
 #endif
 }
 
-// 2⁻²¹: eight half steps of f32. Two would do for all that was tried, but for copies of a surface that lie 10⁻⁷ beside it.
+// Relative error of a coordinate: 2⁻²¹, eight half steps of f32. Two would do for all that was tried, but for copies of a surface
+// that lie 10⁻⁷ beside it.
 const ROUNDING: f32 = 4.76837158203125e-7;
 
-// How far points of a triangle, and intersections with it, may be off along each axis: by some steps of the largest coordinate that goes into
-// them. A bound on the errors of the formulas, from the triangle alone (compare Pharr, Jakob and Humphreys, "Physically Based Rendering",
-// 4th ed. 2023, ch. 6.8).
+// Bound on the error of a triangle's points, and of intersections with it, along each axis: some steps of the largest coordinate
+// that goes into them. It bounds the errors of the formulas from the triangle alone (compare Pharr, Jakob and Humphreys,
+// "Physically Based Rendering", 4th ed. 2023, ch. 6.8).
 fn rounding_error(t: Triangle, v: Visible) -> vec3<f32> {
     let error = ROUNDING * max(max(abs(t.a), abs(t.b)), abs(t.c));
 #ifdef INSTANCED
@@ -161,27 +163,35 @@ fn rounding_error(t: Triangle, v: Visible) -> vec3<f32> {
 #endif
 }
 
-// How far beside its triangle a ray has to start along the normal so that rounding does not let it meet the triangle's plane. An error
-// counts by how far the normal points along its axis: a floor at height 0 has none, however wide it is.
+// Square of the greatest factor by which needles enlarge an error: 16².
+const MOST_THINNESS_SQUARED: f32 = 256.0;
+
+// Distance from its triangle along the normal at which a ray has to start, so that rounding does not let it meet the triangle's
+// plane. An error counts by how far the normal points along its axis: a floor at height 0 has none, however wide it is.
 fn plane_margin(t: Triangle, normal: vec3<f32>, error: vec3<f32>) -> f32 {
     let edge_b = t.b - t.a;
     let edge_c = t.c - t.a;
     let area_normal = cross(edge_b, edge_c);
-    // 1/sin of the angle at `a`: so much of a step do products of edges lose where they nearly cancel. No more than 16, for needles.
+    // 1/sin of the angle at `a`: products of edges that nearly cancel lose that many steps. At most 16, for needles.
     let squared = dot(edge_b, edge_b) * dot(edge_c, edge_c) / max(dot(area_normal, area_normal), 1e-37);
-    let thinness = sqrt(clamp(squared, 1.0, 256.0));
+    let thinness = sqrt(clamp(squared, 1.0, MOST_THINNESS_SQUARED));
     return dot(abs(normal), error) * thinness;
 }
 
-// The nearest weights that are within a triangle by the error of its points, and by a fifth of a millionth of its size at least. A ray that meets an
-// edge within rounding may be beyond the neighbour's plane, and what leaves from there has left a closed room.
+// Least distance of a point from an edge, in parts of the triangle's height, and the greatest: a quarter leaves room for a point.
+const LEAST_INSET: f32 = 2e-7;
+const MOST_INSET: f32 = 0.25;
+
+// Moves weights inside a triangle by the error of its points. Failure: light left a closed room. Reason: a ray that meets an edge
+// within rounding may be beyond the neighbour's plane. Rule: the point lies inside by the error, and by a fifth of a millionth of
+// the triangle's size at least.
 fn within_edges(t: Triangle, weights: vec2<f32>, error: vec3<f32>) -> vec2<f32> {
     let edge_b = t.b - t.a;
     let edge_c = t.c - t.a;
     let area_normal = cross(edge_b, edge_c);
     // A corner's weight falls from 1 to 0 over its height, which is the doubled area over the opposite edge.
     let per_error = vec3(distance(t.b, t.c), length(edge_c), length(edge_b)) * inverseSqrt(max(dot(area_normal, area_normal), 1e-37));
-    let least = clamp(per_error * max(max(error.x, error.y), error.z), vec3(2e-7), vec3(0.25));
+    let least = clamp(per_error * max(max(error.x, error.y), error.z), vec3(LEAST_INSET), vec3(MOST_INSET));
     let inner = max(weights, least.yz);
     return inner * min(1.0, (1.0 - least.x) / (inner.x + inner.y));
 }

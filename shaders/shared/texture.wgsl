@@ -15,6 +15,7 @@ fn texture_coordinates(row: u32, barycentrics: vec2<f32>, uv_set: u32) -> vec2<f
     return a + barycentrics.x * (b - a) + barycentrics.y * (c - a);
 }
 
+// Texel coordinate after wrapping: 0 repeats, 1 mirrors, 2 clamps.
 fn wrap(i: i32, size: i32, mode: u32) -> i32 {
     if mode == 2u {
         return clamp(i, 0, size - 1);
@@ -25,7 +26,7 @@ fn wrap(i: i32, size: i32, mode: u32) -> i32 {
     return select(inside, period - 1 - inside, inside >= size);
 }
 
-// IEC 61966-2-1.
+// sRGB transfer function (IEC 61966-2-1).
 fn srgb_to_linear(c: vec3<f32>) -> vec3<f32> {
     return select(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, c <= vec3(0.04045));
 }
@@ -78,30 +79,34 @@ fn corner_color(first: u32) -> vec4<f32> {
 #endif
 
 #ifdef ALPHA_BLEND
-// Opacity from which a blended surface stops a ray. Below 0 it is a random number for each surface that the ray meets, so that a
-// surface covers as much as its opacity on average.
+// Opacity from which a blended surface stops a ray. Below 0 the threshold is a random number for each surface that the ray meets,
+// so that a surface covers as much as its opacity on average.
 var<private> coverage: f32 = 0.5;
-// Seeds these numbers: a ray that is repeated with its seed meets the same surfaces.
+// Seed of these numbers. A ray that is repeated with its seed meets the same surfaces.
 var<private> coverage_seed: u32 = 0u;
-// Whether a ray has met a surface that neither lets everything through nor nothing.
+// True once a ray has met a surface that lets a part of the light through, neither all of it nor nothing.
 var<private> is_blended: bool = false;
 
-// Has the rays that follow meet blended surfaces at random.
+// Makes the rays that follow meet blended surfaces at random.
 fn cover_at_random(seed: u32) {
     coverage = -1.0;
+    // A constant (2³² over the golden ratio) parts these numbers from the path's own.
     coverage_seed = hash(seed ^ 0x9e3779b9u);
 }
 
-// Has the rays that follow meet all blended surfaces of at least this opacity.
+// Makes the rays that follow meet all blended surfaces of at least this opacity.
 fn cover_from(opacity: f32) {
     coverage = opacity;
 }
 
-// Whether a ray meets a triangle so near to an edge that it may meet the neighbour as well, and the point counts as the neighbour's. A
-// ray through the common edge would cover twice. The triangle along whose winding the edge ascends has it, which the other, with
-// the same two corners, goes along downwards.
+// Barycentric weight below which a point is so near to an edge that a ray may meet both triangles there.
+const AT_EDGE: f32 = 4e-6;
+
+// True if a point near an edge counts as the neighbour's. Failure: a ray through a common edge was covered twice. Reason: it may
+// meet both triangles. Rule: the triangle along whose winding the edge ascends has it; the other, with the same two corners, goes
+// along it downwards.
 fn belongs_to_neighbour(row: u32, barycentrics: vec2<f32>) -> bool {
-    let near = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics) < vec3(4e-6);
+    let near = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics) < vec3(AT_EDGE);
     if !any(near) {
         return false;
     }
@@ -144,7 +149,7 @@ fn opacity_at(material: Material, row: u32, barycentrics: vec2<f32>) -> f32 {
 }
 
 #ifdef ALPHA_BLEND
-// How much a surface covers of what lies behind a point of it that a ray has met.
+// Opacity of a surface at a point that a ray has met: the part that it covers of what lies behind.
 fn covered_at(row: u32, barycentrics: vec2<f32>) -> f32 {
     let material = load_material(geometry_word(row * 3u).w);
     if (material.flags & BLENDED) == 0u {
@@ -154,7 +159,7 @@ fn covered_at(row: u32, barycentrics: vec2<f32>) -> f32 {
 }
 #endif
 
-// Whether a ray goes through this point of a triangle, which it meets from the back or from the front: because of its opacity, or
+// True if a ray goes through this point of a triangle, which it meets from the back or from the front: because of the opacity, or
 // because the material has no back faces.
 fn is_hole(row: u32, instance: u32, barycentrics: vec2<f32>, back: bool) -> bool {
     let material = load_material(geometry_word(row * 3u).w);

@@ -1,7 +1,7 @@
 #define_import_path asvgf::traverse
 
 #import asvgf::scene::{scene, geometry_word, NO_TRIANGLE}
-#import asvgf::ray::{Ray, Hit, MISS}
+#import asvgf::ray::{Ray, Hit, MISS, OVER_EDGE}
 #ifdef INSTANCED
 #import asvgf::scene::{world_to_object, transform_point, transform_vector, instance_numbers, instance_grid}
 #endif
@@ -9,7 +9,7 @@
 #import asvgf::texture::is_hole
 #endif
 
-// Möller and Trumbore 1997. Returns distance, u, v; a distance of `MISS` where there is no hit in (0, limit).
+// Möller and Trumbore 1997. Returns distance, u, v; the distance is `MISS` if there is no hit in (0, limit).
 fn intersect(origin: vec3<f32>, direction: vec3<f32>, a: vec3<f32>, edge_b: vec3<f32>, edge_c: vec3<f32>, limit: f32) -> vec3<f32> {
     let p = cross(direction, edge_c);
     let determinant = dot(edge_b, p);
@@ -19,18 +19,21 @@ fn intersect(origin: vec3<f32>, direction: vec3<f32>, a: vec3<f32>, edge_b: vec3
     let q = cross(s, edge_b);
     let v = dot(direction, q) * inverse;
     let t = dot(edge_c, q) * inverse;
-    // A degenerate triangle has determinant 0: no comparison with the infinities that follow is relied on.
-    let hit = determinant != 0.0 && min(u, v) >= -1e-6 && u + v <= 1.000001 && t > 0.0 && t < limit;
+    // A degenerate triangle has determinant 0: no comparison relies on the infinities that follow.
+    let hit = determinant != 0.0 && min(u, v) >= -OVER_EDGE && u + v <= 1.0 + OVER_EDGE && t > 0.0 && t < limit;
     return vec3(select(MISS, t, hit), u, v);
 }
 
-// A direction component of zero would make 0·∞ in the slab test; 2⁻⁸⁰ is below anything that a ray of use can resolve.
+// 2⁻⁸⁰, below any component of a direction that a ray of use can resolve.
+const TINY: f32 = 8.3e-25;
+
+// 1/d. A component of zero would make 0·∞ in the slab test, so it counts as ±2⁻⁸⁰.
 fn safe_inverse(d: vec3<f32>) -> vec3<f32> {
-    let tiny = vec3(8.3e-25);
+    let tiny = vec3(TINY);
     return 1.0 / select(d, select(tiny, -tiny, d < vec3(0.0)), abs(d) < tiny);
 }
 
-// What a ray needs for the boxes of one tree: a plane at place q of the tree's grid is at distance q·step + base.
+// A ray's map from the grid of one tree's boxes to distances: a plane at place q of the grid is at distance q·step + base.
 struct Slabs {
     base: vec3<f32>,
     step: vec3<f32>,
@@ -41,7 +44,7 @@ fn slabs(origin: vec3<f32>, direction: vec3<f32>, grid_base: vec3<f32>, grid_ste
     return Slabs((grid_base - origin) * inverse, grid_step * inverse);
 }
 
-// Entry distance into a child's box (slab method, Kay and Kajiya 1986), or `MISS`. The boxes were rounded outwards.
+// Entry distance into a child's box (slab method, Kay and Kajiya 1986), or `MISS`. The boxes are rounded outwards.
 fn enter_box(s: Slabs, child: vec4<u32>, limit: f32) -> f32 {
     let low = vec3<f32>(vec3(child.x & 0xffffu, child.x >> 16u, child.y & 0xffffu));
     let high = vec3<f32>(vec3(child.y >> 16u, child.z & 0xffffu, child.z >> 16u));
@@ -62,7 +65,7 @@ fn intersect_triangle(origin: vec3<f32>, direction: vec3<f32>, triangle: u32, li
 }
 
 #ifdef ALPHA_MASK
-// Whether a ray meets the back of a triangle, in the space of its mesh, where a placement that mirrors does not matter.
+// True if a ray meets the back of a triangle, in the space of its mesh, where a placement that mirrors does not matter.
 fn meets_back(row: u32, direction: vec3<f32>) -> bool {
     let a = bitcast<vec3<f32>>(geometry_word(row * 3u).xyz);
     let edge_b = bitcast<vec3<f32>>(geometry_word(row * 3u + 1u).xyz) - a;
@@ -71,18 +74,18 @@ fn meets_back(row: u32, direction: vec3<f32>) -> bool {
 }
 #endif
 
-// References, as src/scene/gpu/tree/node.rs makes them: an inner node's number, or a leaf: LEAF, its count and its first row.
+// References, as src/scene/gpu/tree/build.rs makes them: the number of an inner node, or a leaf made of LEAF, its count and its first row.
 const LEAF: u32 = 0x80000000u;
 const COUNT_SHIFT: u32 = 27u;
 const FIRST_MASK: u32 = 0x07ffffffu;
 // A leaf of no triangles lies at the bottom of the stack.
 const NOTHING: u32 = 0x80000000u;
-// With INSTANCED, the leaves of the top level are instances, the ray goes on in object space, and another leaf of no triangles
+// With INSTANCED, the leaves of the top level are instances, and the ray goes on in object space. Another leaf of no triangles
 // marks on the stack where world space resumes.
 const TOP_LEVEL: u32 = 0x87ffffffu;
 
-// One loop for both kinds of query: down the tree to the nearest leaf, its triangles, the next node from the stack (Aila and
-// Laine 2009, "while-while"). A node is the boxes and references of both children.
+// One loop for both kinds of query: down the tree to the nearest leaf, then its triangles, then the next node from the stack (Aila
+// and Laine 2009, "while-while"). A node holds the boxes and references of both children.
 fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
     var hit = Hit(limit, NO_TRIANGLE, 0u, vec2(0.0));
     var stack: array<u32, #{STACK_SIZE}>;
@@ -104,7 +107,7 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
             let swap = right < left;
             let near = select(left_child.w, right_child.w, swap);
             let far = select(right_child.w, left_child.w, swap);
-            // The stack's top is written either way, and only kept where the farther child is to be visited too.
+            // The stack's top is always written, and only kept if the farther child is to be visited too.
             let popped = stack[depth - 1u];
             let both = max(left, right) < MISS;
             let neither = min(left, right) >= MISS;
@@ -124,7 +127,7 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
         } else if instance == NO_TRIANGLE {
             instance = current & FIRST_MASK;
             let placement = world_to_object(instance);
-            // Not normalised: distances stay those of world space.
+            // The direction is not normalised, so that distances stay those of world space.
             origin = transform_point(placement, ray.origin);
             direction = transform_vector(placement, ray.direction);
             let grid = instance_grid(instance);
@@ -142,7 +145,7 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
             var closer = t.x < hit.distance;
 #ifdef ALPHA_MASK
             if closer {
-                #ifdef INSTANCED
+#ifdef INSTANCED
                 closer = !is_hole(row, instance, t.yz, meets_back(row, direction));
 #else
                 closer = !is_hole(row, 0u, t.yz, meets_back(row, direction));
@@ -171,7 +174,7 @@ fn closest_hit(ray: Ray) -> Hit {
     return traverse(ray, MISS, false);
 }
 
-// Whether something lies on the open segment from the origin to `limit`.
+// True if something lies on the open segment from the origin to `limit`.
 fn occluded(ray: Ray, limit: f32) -> bool {
     return traverse(ray, limit, true).triangle != NO_TRIANGLE;
 }
