@@ -51,7 +51,7 @@ struct Scene {
 // Materials and lights, the structs below texel by texel.
 @group(1) @binding(5) var materials: texture_2d<u32>;
 @group(1) @binding(6) var lights: texture_2d<u32>;
-// RGBA8 texels of all images, folded into layers as in src/scene/texels.rs if a buffer cannot hold them.
+// RGBA8 texels of all images, folded into layers as in src/scene/gpu/surface/places.rs if a buffer cannot hold them.
 #ifdef FOLDED_IMAGES
 @group(1) @binding(7) var images: texture_2d_array<u32>;
 #else
@@ -126,7 +126,7 @@ struct Light {
 
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
-// Texel i of a folded texture, whose rows hold 4096 as in src/scene/folded.rs.
+// Texel i of a folded texture, whose rows hold 4096 as in src/scene/gpu/memory/folded.rs.
 fn geometry_word(i: u32) -> vec4<u32> {
 #ifdef STORAGE_READS
     return textureLoad(geometry, vec2(i & 4095u, i >> 12u));

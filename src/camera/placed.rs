@@ -41,7 +41,7 @@ pub(crate) struct CameraUniform {
     /// This eye minus the eye of the frame's own camera.
     pub(super) offset: [f32; 3],
     // WGSL rounds the size of a struct up to that of a vector.
-    padding: f32,
+    pub(super) padding: f32,
 }
 
 impl CameraUniform {

@@ -1,5 +1,6 @@
 //! Cameras of all kinds, by the rays that they give.
 
+#[cfg(feature = "path-tracer")]
 use super::vector::narrow;
 use super::{Camera, CameraUniform, Matrices, PlacedCamera, Viewpoint};
 use crate::Error;

@@ -18,7 +18,7 @@ pub struct Channels {
 }
 
 impl Channels {
-    /// The samples of a channel, by its full name.
+    /// Returns the samples of a channel, by its full name.
     pub fn get(&self, name: &str) -> Option<&[f32]> {
         self.channels.iter().find(|(known, _)| known == name).map(|(_, samples)| samples.as_slice())
     }
@@ -26,12 +26,12 @@ impl Channels {
 
 /// Reads all channels of an EXR file; f16 and u32 samples become f32.
 ///
-/// Channel names are kept in full. In a file of several parts, the channels of a part get its name in front (`albedo.R`), unless they have
-/// it already. The image is that of the data window, see [`ExrFile::data_window`].
+/// Channel names are kept in full. In a file of several parts, a part's channels get the part's name in front (`albedo.R`),
+/// unless they have it already. The image is that of the data window, see [`ExrFile::data_window`].
 ///
 /// # Errors
 ///
-/// As [`ExrFile::read`].
+/// Fails as [`ExrFile::read`] does.
 pub fn read_exr(path: impl AsRef<Path>) -> Result<Channels, ImageError> {
     Ok(ExrFile::read(path)?.channels())
 }
@@ -40,8 +40,8 @@ pub fn read_exr(path: impl AsRef<Path>) -> Result<Channels, ImageError> {
 ///
 /// # Errors
 ///
-/// No channels, channels that do not have `width · height` samples or share a name, a size of 0 or above 16384, or a
-/// file that cannot be written.
+/// Fails if there are no channels, if channels do not have `width · height` samples or share a name, for a size of 0 or above
+/// 16384, and for a file that cannot be written.
 pub fn write_exr(path: impl AsRef<Path>, image: &Channels) -> Result<(), ImageError> {
     let path = path.as_ref();
     let error = |reason: String| ImageError::new(path, reason);
@@ -65,7 +65,7 @@ pub fn write_exr(path: impl AsRef<Path>, image: &Channels) -> Result<(), ImageEr
 ///
 /// # Errors
 ///
-/// As [`write_exr`].
+/// Fails as [`write_exr`] does.
 pub fn write_exr_rgb(path: impl AsRef<Path>, width: u32, height: u32, pixels: &[[f32; 3]]) -> Result<(), ImageError> {
     let channel = |name: &str, index: usize| (name.to_owned(), pixels.iter().map(|pixel| pixel[index]).collect());
     write_exr(path, &Channels { width, height, channels: vec![channel("R", 0), channel("G", 1), channel("B", 2)] })

@@ -1,4 +1,4 @@
-//! An EXR file with everything that it holds beside the samples, so that it can be written again.
+//! EXR files with all that they hold beside the samples, so that they can be written again.
 
 use std::collections::HashSet;
 use std::io::Cursor;
@@ -25,7 +25,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// The least window that contains both.
+    /// Returns the least window that contains both.
     pub fn union(self, other: Self) -> Self {
         let end = |w: Self, axis: usize| i64::from(w.position[axis]) + i64::from(w.size[axis]);
         let position = [0, 1].map(|axis| self.position[axis].min(other.position[axis]));
@@ -33,13 +33,13 @@ impl Window {
         Self { position, size: size.map(|side| u32::try_from(side).unwrap_or(u32::MAX)) }
     }
 
-    /// Samples of this window, placed in another. Pixels that this one has not are `filling`.
+    /// Moves samples of this window into another. Pixels that this one does not have are `filling`.
     pub fn place(self, samples: &[f32], into: Self, filling: f32) -> Vec<f32> {
         if self == into {
             return samples.to_vec();
         }
         let mut placed = vec![filling; into.size[0] as usize * into.size[1] as usize];
-        // Columns that both have, counted in this window.
+        // Columns that both windows have, counted in this one.
         let first = (into.position[0].saturating_sub(self.position[0])).max(0) as usize;
         for (row, line) in samples.chunks_exact(self.size[0] as usize).enumerate() {
             let y = i64::from(self.position[1]) + row as i64 - i64::from(into.position[1]);
@@ -56,7 +56,7 @@ impl Window {
     }
 }
 
-/// A value that an EXR file gives a name, of the kinds that describe cameras.
+/// A value of a named attribute of an EXR file, of the kinds that describe cameras.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Attribute {
     /// A number.
@@ -71,7 +71,7 @@ pub enum Attribute {
     Text(String),
 }
 
-/// What the samples of an EXR file are stored as.
+/// Type of the stored samples of an EXR file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleType {
     /// 16-bit floats. Finite numbers above 65504 become 65504.
@@ -80,10 +80,10 @@ pub enum SampleType {
     Float,
 }
 
-/// How an EXR file is compressed. Without loss, unless said.
+/// Compression of an EXR file. Lossless, unless said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compression {
-    /// Not at all.
+    /// None.
     None,
     /// Run lengths.
     Rle,
@@ -97,7 +97,7 @@ pub enum Compression {
     Pxr24,
     /// 16-bit floats in blocks of a fixed size, with loss.
     B44,
-    /// As B44, with smaller flat blocks.
+    /// B44 with smaller flat blocks.
     B44a,
     /// Cosine transform, 32 rows at a time, with loss.
     Dwaa,
@@ -116,13 +116,13 @@ impl ExrFile {
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, that is no EXR file, holds deep data or subsampled channels, or whose windows are together
-    /// larger than 16384 pixels a side, or its samples than 4 GiB.
+    /// Fails for a file that cannot be read, that is no EXR file, or that holds deep data or subsampled channels. Fails also
+    /// if its windows are together larger than 16384 pixels a side, or its samples than 4 GiB.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, ImageError> {
         let path = path.as_ref();
         let error = |reason: String| ImageError::new(path, reason);
         let bytes = read_file(path).map_err(error)?;
-        // The size is looked at before memory is taken for it.
+        // The size is checked before memory is taken for it.
         let broken = |cause: exr::error::Error| match cause {
             exr::error::Error::NotSupported(what) => error(format!("holds what is not read: {what}")),
             cause => error(format!("is no EXR file, or is damaged or cut short: {cause}")),
@@ -143,7 +143,7 @@ impl ExrFile {
             window = Some(whole);
             total = total.saturating_add((width * height * 4) as u64 * header.channels.list.len() as u64);
         }
-        // Parts are placed in the window that has them all.
+        // Parts are placed in the window that contains them all.
         let channels: usize = meta.headers.iter().map(|header| header.channels.list.len()).sum();
         let area = window.map_or(0, |window| u64::from(window.size[0]) * u64::from(window.size[1]));
         total = total.max(area.saturating_mul(4 * channels as u64));
@@ -170,7 +170,7 @@ impl ExrFile {
         Ok(Self { image })
     }
 
-    /// A file of these channels, in 32-bit floats.
+    /// Makes a file of these channels, in 32-bit floats.
     pub(super) fn of(image: &Channels) -> Self {
         let size = Vec2(image.width as usize, image.height as usize);
         let layer =
@@ -179,42 +179,44 @@ impl ExrFile {
         Self { image: Image { attributes, layer_data: [layer].into_iter().collect() } }
     }
 
-    /// Where its samples lie: the least window that contains those of all parts.
+    /// Returns the window of the samples: the least one that contains those of all parts.
     pub fn data_window(&self) -> Window {
         let windows = self.image.layer_data.iter().map(|l| window_of(l.attributes.layer_position, l.size));
         windows.reduce(Window::union).unwrap_or(Window { position: [0; 2], size: [1; 2] })
     }
 
-    /// The picture that cameras and viewers refer to. The data window may be smaller or larger, and lie anywhere.
+    /// Returns the window of the picture that cameras and viewers refer to. The data window may be smaller or larger, and lie
+    /// anywhere.
     pub fn display_window(&self) -> Window {
         let bounds = self.image.attributes.display_window;
         window_of(bounds.position, bounds.size)
     }
 
-    /// Where red, green, blue and white lie in the chromaticity diagram (CIE 1931 x and y), if the file says so.
+    /// Returns the places of red, green, blue and white in the chromaticity diagram (CIE 1931 x and y), if the file names
+    /// them.
     pub fn chromaticities(&self) -> Option<[[f32; 2]; 4]> {
         let Chromaticities { red, green, blue, white } = self.image.attributes.chromaticities?;
         Some([red, green, blue, white].map(|Vec2(x, y)| [x, y]))
     }
 
-    /// Whether the file says that it holds the six faces of a cube.
+    /// Returns true if the file says that it holds the six faces of a cube.
     pub(crate) fn is_cube_map(&self) -> bool {
         let cube = |layer: &Layer<_>| layer.attributes.environment_map == Some(EnvironmentMap::Cube);
         self.image.layer_data.iter().any(cube)
     }
 
-    /// Width over height of a pixel.
+    /// Returns a pixel's width over its height.
     pub fn pixel_aspect(&self) -> f32 {
         self.image.attributes.pixel_aspect
     }
 
-    /// The full names of its channels, part by part: in a file of several parts with the part's name in front, unless they have it.
+    /// Returns the full names of the channels, part by part. In a file of several parts they have the part's name in front.
     pub fn names(&self) -> Vec<String> {
         self.named().into_iter().map(|(name, ..)| name).collect()
     }
 
-    /// All samples over the data window as 32-bit floats, by the names of [`ExrFile::names`]; the first of two equal names counts. Where
-    /// a part has no pixel, its channels are 0.
+    /// Returns all samples over the data window as 32-bit floats, by the names of [`ExrFile::names`]; the first of two equal
+    /// names counts. A part's channels are 0 at pixels that it does not have.
     pub fn channels(&self) -> Channels {
         let window = self.data_window();
         let mut names = HashSet::new();
@@ -230,7 +232,7 @@ impl ExrFile {
         Channels { width: window.size[0], height: window.size[1], channels }
     }
 
-    /// An attribute of the file or its first part that has it, by the name that it has in the file.
+    /// Returns an attribute by its name in the file: the file's, or that of the first part that has it.
     pub fn attribute(&self, name: &str) -> Option<Attribute> {
         self.image.layer_data.iter().find_map(|layer| of_part(&layer.attributes, name)).or_else(|| {
             let value = self.image.attributes.other.iter().find(|(known, _)| **known == *name)?.1;
@@ -238,8 +240,8 @@ impl ExrFile {
         })
     }
 
-    /// Gives channels other samples over the data window, by the names of [`ExrFile::names`], and keeps how they are stored. Names that the file has
-    /// not are passed over.
+    /// Replaces the samples of channels over the data window, by the names of [`ExrFile::names`]. The type of the samples
+    /// stays. Names that the file does not have are ignored.
     pub fn replace(&mut self, channels: &[(String, Vec<f32>)]) {
         let window = self.data_window();
         for (name, part, channel) in self.named() {
@@ -252,8 +254,8 @@ impl ExrFile {
         }
     }
 
-    /// A file of one part with these channels over the data window of the part that has the channel `like`, and with that part's attributes,
-    /// compression and type of samples. The samples given are of this file's data window.
+    /// Makes a file of one part with these channels over the data window of the part that has the channel `like`, and with
+    /// that part's attributes, compression and type of samples. The given samples are of this file's data window.
     pub fn with_channels(&self, like: &str, channels: &[(String, Vec<f32>)]) -> Self {
         let found = self.named().into_iter().find(|(name, ..)| name == like).map_or((0, 0), |(_, p, c)| (p, c));
         let layer = &self.image.layer_data[found.0];
@@ -267,7 +269,8 @@ impl ExrFile {
         Self { image: Image { attributes: self.image.attributes.clone(), layer_data: [part].into_iter().collect() } }
     }
 
-    /// Has the floats of channels written as this type, by the names of [`ExrFile::names`]. Depths and numbers of objects may be too large for 16 bits.
+    /// Sets the type in which the floats of channels are written, by the names of [`ExrFile::names`]. Depths and numbers of
+    /// objects may be too large for 16 bits.
     pub fn set_sample_type(&mut self, sample_type: SampleType, names: &[String]) {
         let like = match sample_type {
             SampleType::Half => FlatSamples::F16(Vec::new()),
@@ -282,7 +285,7 @@ impl ExrFile {
         }
     }
 
-    /// Has all parts compressed so.
+    /// Sets the compression of all parts.
     pub fn set_compression(&mut self, compression: Compression) {
         use exr::prelude::Compression as Of;
         let compression = match compression {
@@ -304,7 +307,7 @@ impl ExrFile {
     ///
     /// # Errors
     ///
-    /// Contents that the format does not allow, or a file that cannot be written.
+    /// Fails for contents that the format does not allow, or a file that cannot be written.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), ImageError> {
         let path = path.as_ref();
         let mut bytes = Vec::new();
@@ -329,7 +332,7 @@ impl ExrFile {
     }
 }
 
-/// The number of a compression that is newer than the reader, which takes such a file for damaged.
+/// Number of a compression that is newer than the reader, which takes such a file for damaged.
 fn unknown_compression(bytes: &[u8]) -> Option<u8> {
     const ATTRIBUTE: &[u8] = b"compression\0compression\0\x01\0\0\0";
     const DWAB: u8 = 9;
@@ -339,7 +342,7 @@ fn unknown_compression(bytes: &[u8]) -> Option<u8> {
     start.get(at + ATTRIBUTE.len()).copied().filter(|&number| number > DWAB)
 }
 
-/// The name of a channel with the name of its part in front, where it does not have that already.
+/// Returns a channel's name with its part's name in front, if it does not have that already.
 fn full_name(part: Option<&str>, channel: String) -> String {
     match part.filter(|part| !part.is_empty()) {
         Some(part) if !channel.strip_prefix(part).is_some_and(|rest| rest.starts_with('.')) => {
@@ -349,7 +352,7 @@ fn full_name(part: Option<&str>, channel: String) -> String {
     }
 }
 
-/// A name as its program wrote it: in UTF-8, where it is that.
+/// Returns a name as its program wrote it, in UTF-8 if it is that.
 fn text(name: &Text) -> String {
     String::from_utf8(name.bytes().to_vec()).unwrap_or_else(|_| name.to_string())
 }
@@ -359,14 +362,14 @@ fn window_of(position: Vec2<i32>, size: Vec2<usize>) -> Window {
     Window { position: [position.x(), position.y()], size: [side(size.width()), side(size.height())] }
 }
 
-/// Channels in the order of the format, stored as others are, or as 32-bit floats.
+/// Orders channels as the format demands, stored as others are, or as 32-bit floats.
 fn sorted(channels: &[(String, Vec<f32>)], like: Option<&FlatSamples>) -> AnyChannels<FlatSamples> {
     let stored = |samples: &Vec<f32>| like.map_or_else(|| FlatSamples::F32(samples.clone()), |l| as_stored(samples, l));
     let channel = |(name, samples): &(String, Vec<f32>)| AnyChannel::new(name.as_str(), stored(samples));
     AnyChannels::sort(channels.iter().map(channel).collect())
 }
 
-/// Samples of the type of others. What is finite stays finite.
+/// Converts samples to the type of others. Finite numbers stay finite.
 fn as_stored(samples: &[f32], like: &FlatSamples) -> FlatSamples {
     const LARGEST: f32 = 65504.0;
     let half = |&x: &f32| f16::from_f32(if x.is_finite() { x.clamp(-LARGEST, LARGEST) } else { x });
@@ -377,7 +380,7 @@ fn as_stored(samples: &[f32], like: &FlatSamples) -> FlatSamples {
     }
 }
 
-/// An attribute of a part. The reader knows the names that are standard, and keeps the others.
+/// An attribute of a part. The reader knows the standard names, and keeps the others.
 fn of_part(attributes: &LayerAttributes, name: &str) -> Option<Attribute> {
     let number = |x: Option<f32>| x.map(|x| Attribute::Number(x.into()));
     let matrix = |m: Option<[f32; 16]>| m.map(rows);

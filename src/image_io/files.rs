@@ -16,7 +16,7 @@ pub(crate) const MAX_SIDE: usize = 16_384;
 /// Largest file that is read, and most memory that the samples of one image may take.
 pub(super) const MAX_BYTES: u64 = 1 << 32;
 
-/// The bytes of a file. The error is a reason.
+/// Reads the bytes of a file. The error is a reason.
 pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
     let unreadable = |cause| format!("cannot be read: {cause}");
     let metadata = fs::metadata(path).map_err(unreadable)?;
@@ -39,7 +39,7 @@ pub(crate) fn limits() -> Limits {
     limits
 }
 
-/// Number of pixels of an image. The error is a reason.
+/// Returns the number of pixels of an image. The error is a reason.
 pub(super) fn area(width: u32, height: u32) -> Result<usize, String> {
     let (width, height) = (width as usize, height as usize);
     check_side(width)?;
@@ -55,18 +55,18 @@ pub(super) fn check_side(side: usize) -> Result<(), String> {
     }
 }
 
-/// Puts a complete file in the place of whatever was there.
+/// Puts a complete file in the place of an older one, if there is one.
 pub(super) fn replace(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
     let temporary = temporary_name(path).ok_or_else(|| ImageError::new(path, "is not the name of a file"))?;
     let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
     written.map_err(|cause| {
-        // It may not even exist; the first error is the one that matters.
+        // The temporary file may not even exist; the first error is the one that matters.
         let _ = fs::remove_file(&temporary);
         ImageError::new(path, format!("cannot be written: {cause}"))
     })
 }
 
-/// A name in the same folder that no other process or thread uses.
+/// Makes a name in the same folder that no other process or thread uses.
 fn temporary_name(path: &Path) -> Option<PathBuf> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let mut name: OsString = path.file_name()?.to_owned();

@@ -1,16 +1,16 @@
-//! Which kind of image a file is.
+//! Kinds of image files.
 
 use image::ImageFormat;
 
-/// How a file is decoded.
+/// The decoder of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Format {
-    /// By the `image` crate.
+    /// The `image` crate.
     Image(ImageFormat),
     Ktx2,
 }
 
-/// Tells from the first bytes of a file whether it can be decoded. The error is a reason.
+/// Finds the decoder of a file from its first bytes. The error is a reason.
 pub(crate) fn recognise(start: &[u8]) -> Result<Format, String> {
     const ONLY: &str = "only PNG, JPEG, TGA, BMP, TIFF, WebP and KTX2 are read";
     use ImageFormat::{Bmp, Jpeg, Png, Tiff, WebP};
@@ -24,7 +24,7 @@ pub(crate) fn recognise(start: &[u8]) -> Result<Format, String> {
     }
 }
 
-/// TGA files have no signature. Their header is one that no text and none of the other formats has.
+/// Recognises a TGA file. These have no signature, but their header is one that no text and none of the other formats has.
 fn is_tga(start: &[u8]) -> bool {
     let Some(&[_, map, kind, _, _, _, _, map_depth, _, _, _, _, w0, w1, h0, h1, depth, flags]) =
         start.first_chunk::<18>()

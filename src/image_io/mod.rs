@@ -1,7 +1,7 @@
 //! Image files: EXR with any number of named channels, and PNG.
 //!
-//! Files are written under a temporary name in the same folder and renamed when they are complete, so that there is
-//! never a file that is half written, and an older file stays until the new one replaces it.
+//! Files are written under a temporary name in the same folder and renamed when they are complete. So no file is ever half
+//! written, and an older file stays until the new one replaces it.
 
 mod channels;
 mod exr_file;
@@ -20,13 +20,13 @@ pub(crate) use format::{Format, recognise};
 
 use std::path::Path;
 
-/// Why an image file cannot be read or written.
+/// Reason for which an image file cannot be read or written.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{file}: {reason}")]
 pub struct ImageError {
     /// The file.
     pub file: String,
-    /// What is wrong with it.
+    /// The fault.
     pub reason: String,
 }
 

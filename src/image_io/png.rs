@@ -12,7 +12,7 @@ use crate::image_io::files::{area, limits, read_file, replace};
 ///
 /// # Errors
 ///
-/// Other than `width · height` pixels, a size of 0 or above 16384, or a file that cannot be written.
+/// Fails for another number than `width · height` pixels, a size of 0 or above 16384, or a file that cannot be written.
 pub fn write_png(path: impl AsRef<Path>, width: u32, height: u32, pixels: &[[u8; 4]]) -> Result<(), ImageError> {
     let path = path.as_ref();
     let error = |reason: String| ImageError::new(path, reason);
@@ -39,7 +39,7 @@ pub fn write_png(path: impl AsRef<Path>, width: u32, height: u32, pixels: &[[u8;
 ///
 /// # Errors
 ///
-/// A file that cannot be read, that is no PNG file, or is larger than 16384 pixels a side.
+/// Fails for a file that cannot be read, that is no PNG file, or that is larger than 16384 pixels a side.
 pub fn read_png(path: impl AsRef<Path>) -> Result<(u32, u32, Vec<[u8; 4]>), ImageError> {
     let path = path.as_ref();
     let error = |reason: String| ImageError::new(path, reason);

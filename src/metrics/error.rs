@@ -1,13 +1,13 @@
-//! What cannot be compared.
+//! Errors of the metrics.
 
-/// Why two images cannot be compared.
+/// Reason for which two images cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MetricError {
-    /// Something has another number of pixels than the image.
+    /// An argument has another number of pixels than the image.
     #[error("`{what}` has {found} pixels, the image {expected}")]
     Length {
-        /// Which argument.
+        /// The argument's name.
         what: &'static str,
         /// Its length.
         found: usize,
@@ -17,9 +17,9 @@ pub enum MetricError {
     /// The image does not have as many pixels as its width and height say.
     #[error("the image has {found} pixels, which is not {width}×{height}")]
     Size {
-        /// Pixels per row, as said.
+        /// Pixels per row, as given.
         width: u32,
-        /// Rows, as said.
+        /// Rows, as given.
         height: u32,
         /// Number of pixels.
         found: usize,
@@ -34,12 +34,12 @@ pub enum MetricError {
         /// Least width and height.
         least: u32,
     },
-    /// A pixel is said to come from one that does not exist.
+    /// A pixel's origin does not exist.
     #[error("pixel {pixel} comes from pixel {origin} of the last frame, which has {count}")]
     Origin {
-        /// Where it is now.
+        /// The pixel's index.
         pixel: usize,
-        /// Where it is said to have been.
+        /// The origin's index.
         origin: usize,
         /// Number of pixels of the last frame.
         count: usize,
@@ -47,18 +47,18 @@ pub enum MetricError {
 }
 
 impl MetricError {
-    /// That an argument has as many pixels as the image.
+    /// Checks that an argument has as many pixels as the image.
     pub(super) fn length(what: &'static str, found: usize, expected: usize) -> Result<(), Self> {
         if found == expected { Ok(()) } else { Err(Self::Length { what, found, expected }) }
     }
 
-    /// That an image has the pixels that its size says.
+    /// Checks that an image has as many pixels as its size says.
     pub(super) fn size([width, height]: [u32; 2], found: usize) -> Result<(), Self> {
         let expected = u64::from(width) * u64::from(height);
         if found as u64 == expected { Ok(()) } else { Err(Self::Size { width, height, found }) }
     }
 
-    /// That every pixel comes from one that exists.
+    /// Checks that every pixel comes from one that exists.
     pub(super) fn origins(origins: &[Option<usize>], count: usize) -> Result<(), Self> {
         let known = origins.iter().enumerate().filter_map(|(pixel, &origin)| Some((pixel, origin?)));
         match known.into_iter().find(|&(_, origin)| origin >= count) {

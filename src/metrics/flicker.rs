@@ -1,13 +1,13 @@
-//! How much still surfaces seem to move.
+//! Flicker: apparent motion of still surfaces.
 
 use super::{MetricError, Pair, mean};
 
-/// Frame-to-frame change of the error along the motion, mean |(aₜ − aₜ₋₁) − (bₜ − bₜ₋₁)| / mean bₜ, over the pixels that count now
-/// and have an origin (see [`origins`](super::origins)) that counted then. Leave out the origins of surfaces whose light changed:
-/// there the error *should* change.
+/// Frame-to-frame change of the error along the motion, mean |(aₜ − aₜ₋₁) − (bₜ − bₜ₋₁)| / mean bₜ, over the pixels that
+/// count now and have an origin (see [`origins`](super::origins)) that counted then. Leave out the origins of surfaces whose
+/// light changed, because the error *should* change there.
 ///
 /// # Errors
-/// Frames or origins of different lengths, or an origin that does not exist.
+/// Fails for frames or origins of different lengths, or an origin that does not exist.
 pub fn flicker(now: &Pair<'_>, before: &Pair<'_>, origins: &[Option<usize>]) -> Result<f64, MetricError> {
     MetricError::length("origins", origins.len(), now.image().len())?;
     MetricError::origins(origins, before.image().len())?;

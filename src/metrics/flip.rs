@@ -3,13 +3,13 @@
 use super::{MetricError, Pair, mean};
 use nv_flip::{FlipImageFloat, FlipImageRgb8};
 
-/// How finely an eye sees a display by default: 0.7 m away from a 0.7 m wide one with 3840 pixels.
+/// Default resolution of an eye that sees a display, in pixels per degree: 0.7 m away from a 0.7 m wide one with 3840 pixels.
 pub const PIXELS_PER_DEGREE: f32 = nv_flip::DEFAULT_PIXELS_PER_DEGREE;
 
-/// Where, and how much, an eye sees a difference when it flips between two images.
+/// The differences that an eye sees when it flips between two images.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flip {
-    /// 0…1 for each pixel.
+    /// Difference of each pixel, 0…1.
     pub map: Vec<f32>,
     /// Mean over the pixels that count.
     pub mean: f64,
@@ -17,7 +17,7 @@ pub struct Flip {
 }
 
 impl Flip {
-    /// The map in the colours that its authors use, from black over purple to light yellow (magma).
+    /// Returns the map in the colours of its authors, from black over purple to light yellow (magma).
     pub fn picture(&self) -> Vec<[u8; 4]> {
         let map = FlipImageFloat::with_data(self.size[0], self.size[1], &self.map);
         let colors = map.apply_color_lut(&nv_flip::magma_lut()).to_vec();
@@ -29,7 +29,7 @@ impl Flip {
 /// difference evaluator for alternating images*).
 ///
 /// # Errors
-/// An image of another size than is said, or without pixels.
+/// Fails for an image of another size than is said, or without pixels.
 pub fn flip(pair: &Pair<'_>, size: [u32; 2], pixels_per_degree: f32) -> Result<Flip, MetricError> {
     MetricError::size(size, pair.image().len())?;
     let [width, height] = size;

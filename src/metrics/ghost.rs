@@ -1,16 +1,17 @@
-//! What stays of an image that is gone.
+//! Ghosts: remains of an image that is gone.
 
 use super::pixelwise::relative_squares;
 use super::{MetricError, Pair, luminance, mean};
 
-/// For each pixel how many frames ago its surface was last disoccluded or relit: 0 is in this frame, `u32::MAX` never.
+/// Returns for each pixel how many frames ago its surface was last disoccluded or relit: 0 is in this frame, `u32::MAX`
+/// never.
 ///
-/// It is disoccluded where it has no origin, and relit where the reference's luminance differs from that of its origin by more than
-/// `threshold` of the larger of the two: well above the noise of the references. `before` are the last frame's ages; where there are
-/// none, nothing ever changed.
+/// A surface is disoccluded if it has no origin. It is relit if the reference's luminance differs from that of its origin by
+/// more than `threshold` of the larger of the two; choose one well above the noise of the references. `before` are the last
+/// frame's ages; without them, nothing ever changed.
 ///
 /// # Errors
-/// Arguments of different lengths, or an origin that does not exist.
+/// Fails for arguments of different lengths, or an origin that does not exist.
 pub fn ages(
     now: &[[f32; 3]],
     before: &[[f32; 3]],
@@ -32,11 +33,11 @@ pub fn ages(
     Ok(now.iter().zip(origins).map(age).collect())
 }
 
-/// Relative mean square error, as [`relative_mse`](super::relative_mse), over the pixels whose surface was disoccluded or relit
-/// less than `frames` ago (see [`ages`]): there stale history shows as a ghost. NaN where nothing changed.
+/// Relative mean square error, as in [`relative_mse`](super::relative_mse), over the pixels whose surface was disoccluded or
+/// relit less than `frames` ago (see [`ages`]): there stale history shows as a ghost. NaN if nothing changed.
 ///
 /// # Errors
-/// Ages for another number of pixels than the image has.
+/// Fails if the ages are for another number of pixels than the image has.
 pub fn ghost_energy(pair: &Pair<'_>, ages: &[u32], frames: u32) -> Result<f64, MetricError> {
     MetricError::length("ages", ages.len(), pair.image().len())?;
     Ok(mean(relative_squares(pair, |pixel| ages[pixel] < frames)))

@@ -1,8 +1,8 @@
-//! How long a change of light takes to arrive.
+//! The time that a change of light takes to arrive.
 
 use super::{MetricError, luminance};
 
-/// How many frames each pixel took, as a distribution.
+/// Settling times of pixels, in frames, as a distribution.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Lag {
     /// Frames of the pixels that arrived, in ascending order; 0 is at once.
@@ -12,28 +12,30 @@ pub struct Lag {
 }
 
 impl Lag {
-    /// The frames within which a share of the pixels, 0…1, arrived; `None` where so many never did, or none were looked at.
+    /// Returns the frames within which a share of the pixels, 0…1, arrived; `None` if fewer ever did, or if there were no
+    /// pixels.
     pub fn quantile(&self, share: f64) -> Option<u32> {
         let count = self.frames.len() + self.never;
         let rank = (share.clamp(0.0, 1.0) * count as f64).ceil() as usize;
         self.frames.get(rank.max(1) - 1).copied()
     }
 
-    /// Share of the pixels that arrived at all; NaN of none.
+    /// Returns the share of the pixels that arrived at all; NaN if there were none.
     pub fn arrived(&self) -> f64 {
         self.frames.len() as f64 / (self.frames.len() + self.never) as f64
     }
 }
 
-/// Settling time of each pixel after a step of its light: the first frame from which on the luminance stays within `band` of the
-/// step around its new level, |l − l_new| ≤ band·|l_new − l_old| (as control engineering defines it; customary bands are 0.1 and
-/// 0.02). `frames[0]` is the first image after the step, `old` and `new` are references before and after it.
+/// Returns the settling time of each pixel after a step of its light: the first frame from which on the luminance stays
+/// within `band` of the step around its new level, |l − l_new| ≤ band·|l_new − l_old|. This is the definition of control
+/// engineering; customary bands are 0.1 and 0.02. `frames[0]` is the first image after the step, `old` and `new` are
+/// references before and after it.
 ///
-/// Only pixels whose step is more than `least` of the larger level are looked at. Noise counts: an image that is noisier than the
-/// band never settles.
+/// Only pixels whose step is more than `least` of the larger level count. Noise counts as well: an image that is noisier than
+/// the band never settles.
 ///
 /// # Errors
-/// Images of different lengths.
+/// Fails for images of different lengths.
 pub fn lag(
     old: &[[f32; 3]],
     new: &[[f32; 3]],

@@ -1,8 +1,8 @@
-//! How far an image is from the truth, and how a sequence behaves when the truth changes.
+//! Measures of an image's distance from the truth, and of a sequence's behaviour when the truth changes.
 //!
-//! Of one frame: [`rmse`], [`relative_mse`], [`psnr`], [`bias`], [`ssim`], and with the feature `flip` ꟻLIP. Of a sequence: [`flicker`], [`lag`],
-//! [`ghost_energy`]. Images are slices of linear colours, first row first. A [`Pair`] holds an image `a`, its reference `b`, and
-//! which pixels count; all of its sizes are checked once, when it is made.
+//! A single frame has [`rmse`], [`relative_mse`], [`psnr`], [`bias`], [`ssim`], and with the feature `flip` ꟻLIP. A sequence
+//! has [`flicker`], [`lag`], [`ghost_energy`]. Images are slices of linear colours, first row first. A [`Pair`] holds an
+//! image `a`, its reference `b`, and the mask of the pixels that count; all of its sizes are checked once, when it is made.
 //!
 //! Sums are taken in `f64`. A mean over no pixels is NaN, and so is any mean over a NaN.
 
@@ -36,7 +36,7 @@ fn luminance(color: [f32; 3]) -> f64 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
-/// NaN of nothing.
+/// Mean; NaN of nothing.
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0_u64), |(sum, count), value| (sum + value, count + 1));
     sum / count as f64

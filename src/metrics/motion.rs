@@ -1,12 +1,12 @@
-//! Where surfaces were in the last frame.
+//! Places of surfaces in the last frame.
 
 use super::MetricError;
 
-/// For each pixel the one of the last frame that its motion leads to (previous − current position in pixels), or `None` where that
-/// is outside the image, not finite, or where `same(pixel, origin)` says that another surface was there.
+/// Returns for each pixel the one of the last frame that its motion leads to (previous − current position in pixels). `None`
+/// if that is outside the image or not finite, or if `same(pixel, origin)` says that another surface was there.
 ///
 /// # Errors
-/// A motion for another number of pixels than the size says.
+/// Fails if the motion is for another number of pixels than the size says.
 pub fn origins(
     size: [u32; 2],
     motion: &[[f32; 2]],
@@ -17,7 +17,7 @@ pub fn origins(
     let origin = |(pixel, moved): (usize, &[f32; 2])| {
         let x = ((pixel % width) as f32 + 0.5 + moved[0]).floor();
         let y = ((pixel / width) as f32 + 0.5 + moved[1]).floor();
-        // Also false of NaN.
+        // NaN fails this test too.
         let inside = x >= 0.0 && y >= 0.0 && x < width as f32 && y < height as f32;
         let origin = inside.then(|| y as usize * width + x as usize)?;
         same(pixel, origin).then_some(origin)

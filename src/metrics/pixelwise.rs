@@ -1,8 +1,9 @@
-//! Errors that look at one pixel at a time. Means are over all channels of the counted pixels.
+//! Errors of single pixels. Means are over all channels of the counted pixels.
 
 use super::{Pair, mean};
 
-/// ε in [`relative_mse`]: what keeps the dark from deciding alone. A reference of 0.1 counts half as much as a bright one.
+/// ε in [`relative_mse`], which keeps dark pixels from deciding alone. A reference of 0.1 counts half as much as a bright
+/// one.
 pub const EPSILON: f64 = 0.01;
 
 /// Root mean square error, √mean (a − b)².
@@ -22,7 +23,7 @@ pub fn psnr(pair: &Pair<'_>, peak: f64) -> f64 {
     10.0 * (peak * peak / mse(pair)).log10()
 }
 
-/// Relative bias of the energy, mean (a − b) / mean b: above 0 the image is brighter than the truth, below it is darker.
+/// Relative bias of the energy, mean (a − b) / mean b. Above 0 the image is brighter than the truth, below it is darker.
 pub fn bias(pair: &Pair<'_>) -> f64 {
     mean(pair.samples(|_| true).map(|(a, b)| a - b)) / mean(pair.samples(|_| true).map(|(_, b)| b))
 }

@@ -6,20 +6,20 @@ use super::{MetricError, Pair, luminance, mean};
 const RADIUS: usize = 5;
 /// Standard deviation of the window's weights, in pixels.
 const SIGMA: f64 = 1.5;
-/// What keeps the quotients from 0/0: (K₁·L)² and (K₂·L)² with K₁ = 0.01, K₂ = 0.03 and a range L of 1.
+/// Constants that keep the quotients from 0/0: (K₁·L)² and (K₂·L)² with K₁ = 0.01, K₂ = 0.03 and a range L of 1.
 const C1: f64 = 1e-4;
 const C2: f64 = 9e-4;
 
-/// Mean structural similarity of two images as displays show them (see [`encode`](super::encode)), 1 where they are equal (Wang,
+/// Mean structural similarity of two images as displays show them (see [`encode`](super::encode)), 1 if they are equal (Wang,
 /// Bovik, Sheikh and Simoncelli 2004, *Image quality assessment: from error visibility to structural similarity*):
 ///
 /// (2·μₐ·μ_b + C₁)·(2·σₐ_b + C₂) / ((μₐ² + μ_b² + C₁)·(σₐ² + σ_b² + C₂)),
 ///
-/// with means μ and covariances σ of Rec. 709 luma in an 11×11 Gaussian window of 1.5 pixels. Only windows that lie inside the
-/// image and whose centre counts are taken, as the authors' own program does.
+/// with means μ and covariances σ of Rec. 709 luma in an 11×11 Gaussian window of 1.5 pixels. Only windows inside the image
+/// whose centre counts are taken, as in the authors' own program.
 ///
 /// # Errors
-/// An image of another size than is said, or smaller than the window.
+/// Fails for an image of another size than is said, or smaller than the window.
 pub fn ssim(pair: &Pair<'_>, size: [u32; 2]) -> Result<f64, MetricError> {
     MetricError::size(size, pair.image().len())?;
     let [width, height] = size;
@@ -44,7 +44,7 @@ pub fn ssim(pair: &Pair<'_>, size: [u32; 2]) -> Result<f64, MetricError> {
     Ok(mean((0..inner[0] * inner[1]).filter(|&i| pair.counts(centre(i))).map(similarity)))
 }
 
-/// The weighted means in all windows that lie inside the image: smaller by twice the reach.
+/// Returns the weighted means in all windows that lie inside the image, which is smaller by twice the reach.
 fn blurred(plane: &[f64], [width, height]: [usize; 2]) -> Vec<f64> {
     let weights = weights();
     let window = |taps: &mut dyn Iterator<Item = f64>| taps.zip(weights).map(|(tap, weight)| tap * weight).sum::<f64>();

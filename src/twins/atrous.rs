@@ -9,8 +9,8 @@ use crate::passes::{Nth, Step, atrous};
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings, Stops};
 
-/// What the documented formulas make of a pixel: colour, standard deviation, and the plain mean; its own, if it has converged.
-/// `image` has colour and deviation in its texels' first half, normal and depth in the second.
+/// A pixel by the documented formulas: colour, standard deviation, and the plain mean; the pixel's own if it has converged.
+/// `image` has colour and deviation in the first half of its texels, normal and depth in the second.
 pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i32, y: i32) -> (V, f64, V) {
     let f = &bench.settings.filter;
     let stride = 1 << iteration;
@@ -54,7 +54,7 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
         let difference = luminance(color) - luminance(own);
         let far = depth(guide(i));
         let stop = if features.has(Feature::ClassicStops) {
-            // ∇z·Δp of the tangent plane: d(1/z) is affine in the pixel, and so z's derivative is −z·(n·∂ray)/(n·ray).
+            // ∇z·Δp of the tangent plane: d(1/z) is affine in the pixel, so z's derivative is −z·(n·∂ray)/(n·ray).
             let moved = sub(bench.ray(x + dx * stride, y + dy * stride), bench.ray(x, y));
             let along = dot(normal, bench.ray(x, y));
             let along = if along.abs() < 1e-4 { -1e-4 } else { along };
@@ -85,9 +85,9 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
     (color, spread, mean)
 }
 
-/// How much longer a step over the image is on the tangent plane through a pixel than on one that faces the camera, both a unit
-/// away: rays are affine in the pixel and meet the plane at their own depths, so their difference's limit is the derivative of
-/// ray/(n·ray).
+/// Foreshortening: length of a step over the image on the tangent plane through a pixel, over that on a plane that faces the
+/// camera, both a unit away. Rays are affine in the pixel and meet the plane at their own depths, so the limit of their
+/// difference is the derivative of ray/(n·ray).
 fn foreshortening(bench: &Bench, [x, y]: [i32; 2], [dx, dy]: [i32; 2], normal: V) -> f64 {
     let ray = bench.ray(x, y);
     let step = sub(bench.ray(x + dx, y + dy), ray);
@@ -102,8 +102,9 @@ fn foreshortening(bench: &Bench, [x, y]: [i32; 2], [dx, dy]: [i32; 2], normal: V
 /// A tap: weight, offset in strides, colour, variance.
 type Tap = (f64, [f64; 2], V, f64);
 
-/// Weighted least squares of a plane with a ridge on its slopes, at the centre, within half and one and a half of the mean.
-/// With `noise`, the ridge follows the variance of Σw·(x − m)·l/Σw, and of y, over the square of the slope of the luminance l.
+/// Weighted least squares of a plane with a ridge on its slopes: the value at the centre, within half and one and a half of
+/// the mean. With `noise`, the ridge follows the variance of Σw·(x − m)·l/Σw, and of the same in y, over the square of the
+/// slope of the luminance l.
 fn fit(taps: &[Tap], weight: f64, mean: V, ridge: f64, noise: Option<f64>) -> V {
     let average = |g: &dyn Fn(&Tap) -> f64| taps.iter().map(|t| t.0 * g(t)).sum::<f64>() / weight;
     let m = [0, 1].map(|i| average(&|t| t.1[i]));
@@ -140,7 +141,7 @@ fn check_step(settings: &Settings, step: &Step) {
             .into_iter()
             .map(|g| match g {
                 [_, 0] => [0; 4],
-                // Deviations from none to far beyond the colour.
+                // Deviations from 0 to far beyond the colour.
                 _ => {
                     let [a, b] = pack_tap(radiance(&mut random), random.unit().powi(4) * 3.0);
                     [a, b, g[0], g[1]]
@@ -160,8 +161,8 @@ fn check_step(settings: &Settings, step: &Step) {
             let (color, deviation, mean) = twin(&bench, step.features, iteration, &image, x, y);
             let (found, spread) = unpack_tap(out);
             for channel in 0..3 {
-                // Stored to 2⁻¹²; exponents of up to some ten, of which distances are differences of numbers a hundred times
-                // as large, are known to 1e-5 in f32; the plane's slopes add some of the mean's own error.
+                // Results are stored to 2⁻¹². Exponents reach some ten; their distances are differences of numbers a hundred
+                // times as large, so f32 knows them to 1e-5. The plane's slopes add some of the mean's own error.
                 let tolerance = 1.5e-3 * mean[channel] + 1e-9;
                 assert_close(found[channel], color[channel], tolerance, || format!("{}: colour", what()));
             }

@@ -12,13 +12,13 @@ use std::sync::{Mutex, OnceLock};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{BindingResource, Buffer, BufferUsages, Extent3d, Texture, TextureFormat, TextureUsages};
 
-/// A texel as its words; those beyond its format's are not looked at.
+/// A texel as its words. Words that its format does not have are ignored.
 pub(super) type Texel = [u32; 4];
 
-/// Sizes with a pixel, with rows and columns that no workgroup or stratum fills.
+/// Sizes: a single pixel, and rows and columns that fill no workgroup or stratum.
 pub(super) const SIZES: [[u32; 2]; 3] = [[1, 1], [7, 5], [33, 17]];
 
-/// The frame around a pass.
+/// The frame that a pass runs in.
 #[derive(Clone)]
 pub(super) struct Bench {
     pub size: [u32; 2],
@@ -37,8 +37,8 @@ impl Bench {
         Self { size, camera, previous: camera, index: 5, continued: true, settings, lambda_block: 1 }
     }
 
-    /// Runs a step on the images of its bindings; what is not given is zero. Returns the images that it wrote, which are the
-    /// same whether it reads textures or storage.
+    /// Runs a step on the images of its bindings; an image that is not given is zero. Returns the images that the step wrote.
+    /// They are the same for textures and for storage.
     pub fn run(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
         let outputs = self.run_once(step, inputs);
         let other = step.clone().on_cpu();
@@ -98,7 +98,7 @@ impl Bench {
             Slot::Now(image) | Slot::Before(image) => (image.format(), image.grid().extent(self.size)),
             Slot::Target if has(Feature::TargetF16) => (TextureFormat::Rgba16Float, self.size),
             Slot::Target => (TextureFormat::Rgba32Float, self.size),
-            // The widest that a host may hand in.
+            // The widest format that a host may hand in.
             Slot::Host(view) => match view {
                 HostView::Depth | HostView::PreviousDepth => (TextureFormat::R32Float, self.size),
                 HostView::Lambda => (TextureFormat::R32Float, self.size.map(|s| s.div_ceil(self.lambda_block))),
@@ -126,7 +126,7 @@ impl Bench {
     }
 }
 
-/// Kernels are compiled once for all tests.
+/// Compiles each kernel once for all tests.
 fn kernel(step: &Step) -> &'static Kernel {
     static KERNELS: OnceLock<Mutex<BTreeMap<Permutation, &'static Kernel>>> = OnceLock::new();
     let mut kernels = KERNELS.get_or_init(Mutex::default).lock().unwrap_or_else(|e| e.into_inner());

@@ -1,4 +1,4 @@
-//! Every shader as text, as wgpu hands it to a browser: for a second compiler, see examples/demo/web/check.mjs.
+//! Every shader as text, as wgpu hands it to a browser, for a second compiler: see examples/demo/web/check.mjs.
 
 use super::permutations::{steps, traversals};
 use crate::gpu::compose::{Permutation, Shaders};
@@ -7,7 +7,7 @@ use std::path::Path;
 use wgpu::naga::back::wgsl::{WriterFlags, write_string};
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
-/// The WGSL of a permutation, after what it is.
+/// The WGSL of a permutation, headed by its name.
 fn text(shaders: &mut Shaders, permutation: Permutation) -> (String, String) {
     let module = shaders.compose(permutation).unwrap_or_else(|e| panic!("{e}"));
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty()).validate(&module).unwrap();
@@ -20,7 +20,7 @@ fn text(shaders: &mut Shaders, permutation: Permutation) -> (String, String) {
 #[ignore = "writes files: target/permutations, for examples/demo/web/check.mjs"]
 fn every_reachable_permutation_is_written() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/permutations");
-    // Files of shaders that there are no more must not be checked.
+    // Files of shaders that no longer exist must not be checked.
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));

@@ -1,4 +1,4 @@
-//! The textures' formats in f64, and images to try passes on.
+//! The formats of textures in f64, and images to try passes on.
 
 use super::bench::{Bench, Texel};
 use super::plane::{Pinhole, V, add, dot, scale, sub, unit};
@@ -8,7 +8,7 @@ pub(super) fn luminance(c: V) -> f64 {
     dot(c, [0.2126, 0.7152, 0.0722])
 }
 
-/// A common exponent of 8 bits and three mantissas of 18.
+/// Packs a colour: a common exponent of 8 bits and three mantissas of 18.
 pub(super) fn pack_rgb(c: V) -> [u32; 2] {
     let largest = c.into_iter().fold(0.0, f64::max);
     let exponent = (largest.log2().floor() as i32 + 128).clamp(19, 253);
@@ -24,7 +24,7 @@ pub(super) fn unpack_rgb(words: [u32; 2]) -> V {
     [0, 18, 36].map(|shift| (bits >> shift & 0x3ffff) as f64 * step)
 }
 
-/// 6 bits of exponent, 10 of mantissa, no sign.
+/// Packs a number into 6 bits of exponent and 10 of mantissa, without a sign.
 pub(super) fn pack_unsigned(x: f64) -> u32 {
     if x < 2.0_f64.powi(-30) {
         return 0;
@@ -40,7 +40,7 @@ pub(super) fn unpack_unsigned(bits: u32) -> f64 {
     }
 }
 
-/// What a pixel keeps from frame to frame.
+/// The history of a pixel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Kept {
     pub color: V,
@@ -48,8 +48,8 @@ pub(super) struct Kept {
     pub length: f64,
 }
 
-/// The power of two that the history's colour is below, also when its largest channel is rounded up to 13 bits, and of whose
-/// square the variance is below 2¹¹ times. Not less than −113; with a variance that f32 can hold, not less than −68.
+/// Least power of two that is above the history's colour, also when its largest channel is rounded up to 13 bits, and whose
+/// square times 2¹¹ is above the variance. At least −113; with a variance that f32 can hold, at least −68.
 pub(super) fn history_exponent(color: V, variance: f64) -> i32 {
     let largest = color.into_iter().fold(0.0, f64::max);
     let below = largest.log2().floor() as i32 + 1;
@@ -63,15 +63,15 @@ pub(super) fn history_exponent(color: V, variance: f64) -> i32 {
     of_color.max(of_variance).clamp(-113, 126)
 }
 
-/// The variance, as a part of the square of the history's power of two, whose code is 0.
+/// The variance whose code is 0, in parts of the square of the history's power of two.
 pub(super) const VARIANCE_UNIT: f64 = 1.0 / 1_048_576.0;
 
-/// The code of a variance that is so great a part of the square of the history's power of two, before it is rounded.
+/// The code, before it is rounded, of a variance in parts of the square of the history's power of two.
 pub(super) fn variance_code(relative: f64) -> f64 {
     float_code(relative / VARIANCE_UNIT, 16.0)
 }
 
-/// A number as the code of a float with so many steps in an octave, before it is rounded; 2⁰ is 0.
+/// The code, before it is rounded, of a number as a float with so many steps in an octave; that of 2⁰ is 0.
 pub(super) fn float_code(x: f64, steps: f64) -> f64 {
     let exponent = x.log2().floor();
     steps * (exponent + x / exponent.exp2() - 1.0)
@@ -82,7 +82,8 @@ fn from_float_code(code: f64, steps: f64) -> f64 {
     exponent.exp2() * (1.0 + code / steps - exponent)
 }
 
-/// 3 × 13 bits and their exponent; 9 bits of variance; 8 bits of length, the code of 1 being 1. To the nearest.
+/// Packs a history, rounded to the nearest: 3 × 13 bits and their exponent; 9 bits of variance; 8 bits of length, whose code
+/// for 1 is 1.
 pub(super) fn pack_history(kept: Kept) -> [u32; 2] {
     if kept.length == 0.0 {
         return [0; 2];
@@ -114,7 +115,7 @@ pub(super) fn hash(x: u32) -> u32 {
     word >> 22 ^ word
 }
 
-/// What colour, variance and length of a pixel are rounded up with, 0…1: Roberts' sequence of three dimensions.
+/// Random numbers 0…1 for the rounding of a pixel's colour, variance and length: Roberts' sequence of three dimensions.
 pub(super) fn rounding(pixel: [u32; 2], index: u32) -> V {
     let start = hash(pixel[0] ^ hash(pixel[1]));
     let step = [3_518_319_155_u32, 2_882_110_345, 2_360_945_575];
@@ -122,7 +123,8 @@ pub(super) fn rounding(pixel: [u32; 2], index: u32) -> V {
     [0, 1, 2].map(|i| f64::from(bits[i].wrapping_add(index.wrapping_mul(step[i]))) / 2.0_f64.powi(32))
 }
 
-/// In steps of 1/256 pixel, 21 bits each with a sign; what is too far leads nowhere. The depth has 14 bits of mantissa.
+/// Packs a motion in steps of 1/256 pixel, 21 bits each with a sign, and a depth with 14 bits of mantissa. A motion that is
+/// too long leads nowhere.
 pub(super) fn pack_motion(m: V) -> [u32; 2] {
     let near = m[..2].iter().all(|c| c.abs() < 4095.5);
     let q = [0, 1].map(|i| if near { (m[i] * 256.0).round_ties_even() as i64 } else { -(1 << 20) });

@@ -1,4 +1,4 @@
-//! Runs a shader of a test's own on numbers.
+//! Runs a test's own shader on numbers.
 
 use super::gpu::gpu;
 use crate::gpu::compose::{Permutation, Shaders};

@@ -35,7 +35,7 @@ impl Images {
         Self { bench, records, radiance, before }
     }
 
-    /// Radiances now and before of a stratum's path.
+    /// Radiances of a stratum's path, now and before.
     fn pair(&self, x: i32, y: i32) -> Option<(V, V)> {
         let record = self.records[self.bench.stratum(x, y).unwrap()];
         if record[0] == 0 {
@@ -48,11 +48,11 @@ impl Images {
     }
 }
 
-/// Filtered pairs of a stratum: colour and l² now and before, l·l'.
-type Pairs = ([f64; 4], [f64; 4], f64);
+/// A filtered pair of a stratum: colour and l² now and before, l·l'.
+type FilteredPair = ([f64; 4], [f64; 4], f64);
 
-/// As two texels: f, l², l·l'; f', l'².
-fn pack_pairs((now, before, product): &Pairs) -> [Texel; 2] {
+/// Packs a filtered pair into two texels: f, l², l·l'; f', l'².
+fn pack_pair((now, before, product): &FilteredPair) -> [Texel; 2] {
     let texel = |p: &[f64; 4], last: f64| {
         let [a, b] = pack_rgb([p[0], p[1], p[2]]);
         [a, b, word(p[3]), word(last)]
@@ -60,7 +60,7 @@ fn pack_pairs((now, before, product): &Pairs) -> [Texel; 2] {
     [texel(now, *product), texel(before, 0.0)]
 }
 
-fn unpack_pairs([now, before]: [Texel; 2]) -> Pairs {
+fn unpack_pair([now, before]: [Texel; 2]) -> FilteredPair {
     let four = |t: Texel| {
         let [r, g, b] = unpack_rgb([t[0], t[1]]);
         [r, g, b, float(t[2])]
@@ -68,15 +68,15 @@ fn unpack_pairs([now, before]: [Texel; 2]) -> Pairs {
     (four(now), four(before), float(now[3]))
 }
 
-/// Pairs of very different sizes.
-fn some_pairs(count: usize, random: &mut Random) -> Vec<Pairs> {
+/// Filtered pairs of very different sizes.
+fn some_pairs(count: usize, random: &mut Random) -> Vec<FilteredPair> {
     let mut number = || 10.0_f64.powf(random.between(-6.0, 4.0));
     (0..count).map(|_| ([0; 4].map(|_| number()), [0; 4].map(|_| number()), number())).collect()
 }
 
-/// Both images of pairs.
-fn texels(pairs: &[Pairs]) -> [Vec<Texel>; 2] {
-    [0, 1].map(|which| pairs.iter().map(|p| pack_pairs(p)[which]).collect())
+/// Both images of the pairs.
+fn texels(pairs: &[FilteredPair]) -> [Vec<Texel>; 2] {
+    [0, 1].map(|which| pairs.iter().map(|p| pack_pair(p)[which]).collect())
 }
 
 /// Random strata of four numbers, of very different sizes.
@@ -117,7 +117,7 @@ fn pairs_are_what_one_path_brought_now_and_before() {
             let i = images.bench.stratum(x, y).unwrap();
             let (mut now, mut before) = images.pair(x, y).unwrap_or_default();
             if limited && images.records[i][0] != 0 {
-                // Where its surface was.
+                // The pixel where the surface was.
                 let place = images.records[i][1];
                 let kept = history[images.bench.at((place & 0xffff) as i32, (place >> 16) as i32).unwrap()];
                 let brighter = luminance(now).max(luminance(before));
@@ -132,7 +132,7 @@ fn pairs_are_what_one_path_brought_now_and_before() {
                 }
             }
             let (l, l_before) = (luminance(now), luminance(before));
-            let found = unpack_pairs([written["now_out"][i], written["before_out"][i]]);
+            let found = unpack_pair([written["now_out"][i], written["before_out"][i]]);
             let what = || format!("{size:?} ({x}, {y})");
             for (found, (color, square)) in
                 [found.0, found.1].into_iter().zip([(now, l * l), (before, l_before.powi(2))])
@@ -167,7 +167,7 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
             );
             // All thirteen numbers of a stratum: both colours with their squares, the product, the gradient.
             let all = |now: &[Texel], before: &[Texel], gradient: &[Texel], i: usize| -> Vec<f64> {
-                let (n, b, product) = unpack_pairs([now[i], before[i]]);
+                let (n, b, product) = unpack_pair([now[i], before[i]]);
                 n.into_iter().chain(b).chain([product]).chain(gradient[i].map(float)).collect()
             };
             let given: Vec<Vec<f64>> = (0..count).map(|i| all(&now, &before, &gradient, i)).collect();
@@ -179,11 +179,11 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
                 };
                 let found = all(&written["now_out"], &written["before_out"], &written["gradient_out"], i);
                 for (channel, &found) in found.iter().enumerate() {
-                    // The gradient's last two numbers are those of any surface.
+                    // The gradient's last two numbers are those across surfaces.
                     let blind = usize::from(channel >= 11);
                     let weight: f64 = taps.iter().map(|t| t.1[blind]).sum::<f64>().max(1.0);
                     let mean = |c: usize| taps.iter().map(|t| t.1[blind] * given[t.0][c]).sum::<f64>() / weight;
-                    // Exponents are known to some 1e-4; whether a weight of e⁻⁸ is cut may differ: 1e-4 of the largest.
+                    // Exponents are known to some 1e-4. A weight of e⁻⁸ may be cut or not: 1e-4 of the largest.
                     let largest = taps.iter().map(|t| given[t.0][channel]).fold(0.0, f64::max);
                     // Colours have 18 bits of the largest channel.
                     let brightest = match channel {
@@ -202,8 +202,8 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
 }
 
 /// ρ for red, green, blue and luminance, from the filtered pairs: a prior of 5 %, colour within 1½ of the luminance's, shrunk
-/// towards 1 by the ratio's own variance with 90 samples, within ¼…4.
-/// Also, how far outside that it would be (1 at half or twice), and the larger luminance.
+/// towards 1 by the ratio's own variance with 90 samples, within ¼…4. Also returns how far outside of that it would be (1 at
+/// half or twice), and the larger luminance.
 fn ratio(now: [f64; 4], before: [f64; 4], product: f64) -> ([f64; 4], f64, f64) {
     let [l, l_before] = [now, before].map(|p| luminance([p[0], p[1], p[2]]));
     if l.max(l_before) <= 7.9e-31 || l_before <= 1e-6 * l {
@@ -232,8 +232,8 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
             let images = Images::new(size, Settings { filter, ..Settings::adaptive() }, 8);
             let mut random = Random(9);
             let count = images.records.len();
-            // Filtered pairs that are alike, as a filter leaves them: means, and products with some noise.
-            let filtered: Vec<Pairs> = (0..count)
+            // Filtered pairs that are alike, as a filter makes them: means, and products with some noise.
+            let filtered: Vec<FilteredPair> = (0..count)
                 .map(|_| {
                     let before = [0; 3].map(|_| random.between(0.1, 1.0));
                     let change = random.between(0.05, 6.0);
@@ -266,8 +266,8 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 let what = || format!("{size:?} ({x}, {y}), γ {gamma}, ratio {with_ratio}");
                 let (rho, beyond, brighter) = match images.pair(x, y) {
                     Some(_) if with_ratio => {
-                        // What the textures hold.
-                        let (now, before, product) = unpack_pairs(pack_pairs(&filtered[i]));
+                        // The numbers as the textures hold them.
+                        let (now, before, product) = unpack_pair(pack_pair(&filtered[i]));
                         ratio(now, before, product)
                     }
                     _ => ([1.0; 4], 0.0, 0.0),
@@ -290,9 +290,9 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 } else {
                     [0.0; 2]
                 };
-                // Beyond the limits all is dropped.
+                // Beyond the limits all of the history is dropped.
                 let expected = expected.map(|g| g + (brighter.powf(gamma.into()) - g) * beyond);
-                // pow is exp2 of a product in f32: up to 10⁵ is 17 bits before the point.
+                // pow is exp2 of a product in f32: up to 10⁵ takes 17 bits before the point.
                 assert_close(found[0], expected[0], 3e-4 * expected[1], || format!("{}: numerator", what()));
                 assert_close(found[1], expected[1], 3e-4 * expected[1], || format!("{}: denominator", what()));
                 let texel = written["gradient_out"][i];
@@ -311,7 +311,7 @@ fn a_hosts_pairs_go_the_same_way() {
     for size in SIZES {
         let images = Images::new(size, Settings::adaptive(), 12);
         let strata = images.bench.strata();
-        // What a stratum's path brought, beside the stratum instead of in the images.
+        // The radiances of a stratum's path at the stratum's place, instead of in the images.
         let [now, before] = [0, 1].map(|which| -> Vec<Texel> {
             let texel = |&(x, y): &(i32, i32)| {
                 let (now, before) = images.pair(x, y)?;
@@ -351,7 +351,7 @@ fn where_nothing_changed_the_ratio_is_exactly_one_and_the_gradient_exactly_zero(
     for (x, y) in &strata {
         let i = images.bench.stratum(*x, *y).unwrap();
         let (px, py) = Bench::sample_pixel(images.records[i], *x, *y);
-        // The same pixel before, so that both radiances are the same bits.
+        // The same pixel as before, so that both radiances are the same bits.
         images.records[i][1] = px as u32 | (py as u32) << 16;
     }
     let same = some_pairs(strata.len(), &mut Random(11)).into_iter().map(|(now, ..)| (now, now, now[3]));

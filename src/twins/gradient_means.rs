@@ -1,4 +1,4 @@
-//! The gradient without pairs: means of strata, their filter, and what follows from them.
+//! The gradient without pairs: means of strata, their filter, and the λ and ρ that follow.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, float, luminance, pack_rgb, unpack_normal, unpack_rgb, word};
@@ -10,12 +10,13 @@ use crate::passes::{Nth, Step, gradient_means, gradient_means_filter, gradient_o
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings};
 
-/// Means of new samples and of histories with the variance of what they differ by, as the histories know it and as sums of squares.
+/// Means of new samples and of histories, with the variance of their difference, as the histories know it and as sums of
+/// squares.
 #[derive(Clone, Copy, Debug, Default)]
 struct Means {
     now: V,
     before: V,
-    /// By the histories; l(s)²; l(s)·l(m); l(m)².
+    /// V by the histories; l(s)²; l(s)·l(m); l(m)².
     squares: [f64; 4],
 }
 
@@ -53,7 +54,7 @@ impl Means {
         }
     }
 
-    /// All numbers, each with how far it may be off: a colour has 18 bits of its largest channel.
+    /// All numbers, each with its tolerance: a colour has 18 bits of its largest channel.
     fn numbers(&self) -> Vec<(f64, f64)> {
         let of_color = |color: V| {
             let step = color.into_iter().fold(0.0, f64::max) * 2.0_f64.powi(-16);
@@ -64,14 +65,14 @@ impl Means {
     }
 }
 
-/// The variance of one sample's luminance: unbiased, and up to the fifth with a deviation of two means mixed in.
+/// The variance of one sample's luminance: unbiased, and mixed with that of a deviation of two means until the fifth sample.
 fn sample_variance(variance: f64, mean: f64, n: f64) -> f64 {
     let unbiased = if n < 8.0 { variance * n / (n - 1.0).max(0.5) } else { variance };
     let known = ((n - 1.0) / 4.0).min(1.0);
     known * unbiased + (1.0 - known) * (2.0 * mean).powi(2)
 }
 
-/// The record and the means of a stratum, and whether a threshold was near.
+/// The record and the means of a stratum, and true if a threshold was near.
 fn means(given: &Given, sx: i32, sy: i32) -> (Option<usize>, Means, bool) {
     let bench = &given.bench;
     let (mut sum, mut count, mut unsure) = (Means::default(), 0.0, false);
@@ -174,7 +175,7 @@ fn some_means(count: usize, random: &mut Random) -> Vec<Means> {
         let [now, before] = [0; 2].map(|_| [0; 3].map(|_| scale * random.unit()));
         Means { now, before, squares: [0; 4].map(|_| scale * scale * random.unit()) }
     };
-    // What the textures hold.
+    // The numbers as the textures hold them.
     (0..count).map(|_| Means::unpack(one().pack())).collect()
 }
 
@@ -217,7 +218,7 @@ fn the_filter_is_a_weighted_mean_over_the_same_surface() {
     }
 }
 
-/// λ and ρ of red, green, blue and luminance: from the coarsest of the levels to the finest.
+/// λ, and ρ of red, green, blue and luminance, from the coarsest of the levels to the finest.
 fn change(levels: &[Means; 3], with_ratio: bool) -> (f64, [f64; 4]) {
     let (mut lambda, mut ratio) = (0.0_f64, [1.0; 4]);
     for means in levels {
@@ -245,7 +246,7 @@ fn change(levels: &[Means; 3], with_ratio: bool) -> (f64, [f64; 4]) {
         }
     }
     if with_ratio {
-        // Beyond ¼…4 nothing is left of the history at half or twice of that.
+        // Beyond ¼…4, nothing is left of the history at half or twice of that.
         lambda = lambda.max((2.0 - 8.0 * ratio[3]).max(ratio[3] / 4.0 - 1.0).clamp(0.0, 1.0));
     }
     (lambda, ratio.map(|r| r.clamp(0.25, 4.0)))
@@ -257,7 +258,7 @@ fn the_gradient_is_what_exceeds_the_noise() {
     let mut random = Random(22);
     let guide = bench.guide(&mut random);
     let records = bench.records(&guide, &mut random);
-    // A change that all levels see, more or less of noise, and now and then none at all or out of the dark.
+    // A change that all levels see, with more or less noise; now and then none at all, or one out of the dark.
     let levels: Vec<[Means; 3]> = (0..records.len())
         .map(|_| {
             let kind = random.below(8);
@@ -309,7 +310,7 @@ fn the_gradient_is_what_exceeds_the_noise() {
 #[test]
 fn a_single_bright_sample_is_no_change_and_many_are() {
     let of_hits = |hits: usize| {
-        // 400 samples, of a history that has forgotten how rare its light is.
+        // A mean of 400 samples, and a history that has forgotten how rare its light is.
         let samples = (0..400).map(|i| if i < hits { 20.0 } else { 0.0 });
         let mut sum = Means::default();
         for sample in samples {

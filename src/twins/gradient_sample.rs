@@ -30,7 +30,7 @@ fn choose(bench: &Bench, guide: &[[u32; 2]], before: &[Texel]) -> Vec<Texel> {
 
 #[test]
 fn a_static_view_visits_all_nine_places_in_nine_frames_and_none_twice_in_a_row() {
-    // A wall, so that every place can be had.
+    // A wall, so that every place of a stratum can be chosen.
     let mut bench = Bench::new([33, 17], Settings::adaptive());
     let wall: Vec<[u32; 2]> = bench.pixels().map(|_| [super::codec::pack_normal([0.0, 0.0, 1.0]), word(4.0)]).collect();
     (bench.camera.target, bench.camera.eye) = ([0.0; 3], [0.0, 0.0, 4.0]);
@@ -74,7 +74,7 @@ fn what_is_chosen_is_the_same_surface_and_was_no_sample_before() {
             .pixels()
             .map(|(x, y)| {
                 let p = pinhole.project(bench.position(x, y, depth(guide[bench.at(x, y).unwrap()])));
-                // As the texture holds it.
+                // The motion as the texture holds it.
                 unpack_motion(pack_motion([p[0] - f64::from(x) - 0.5 - jx, p[1] - f64::from(y) - 0.5 - jy, p[2]]))
             })
             .collect();
@@ -103,7 +103,7 @@ fn what_is_chosen_is_the_same_surface_and_was_no_sample_before() {
             let i = bench.at(px, py).expect("a sample lies inside the image");
             assert_eq!(record[2..], guide[i], "the record has the pixel's guide");
             let [qx, qy] = [record[1] & 0xffff, record[1] >> 16].map(|q| q as i32);
-            // The previous pixel is where the motion leads.
+            // The previous pixel is the one that the motion leads to.
             for (q, at) in [(qx, f64::from(px) + motion[i][0]), (qy, f64::from(py) + motion[i][1])] {
                 assert!((f64::from(q) - at).abs() <= 0.5 + 1e-4, "({x}, {y}): {q} for {at}");
             }

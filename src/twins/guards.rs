@@ -1,15 +1,15 @@
-//! The guards see what is not a number, where a compiler may take for granted that all are.
+//! The guards recognise numbers that are not finite, although a compiler may assume that all are.
 
 use super::compute::compute;
 use super::random::Random;
 use crate::passes::resolve;
 use crate::plan::Features;
 
-/// What `BRIGHTEST` of color.wgsl says to be let through at most.
+/// `BRIGHTEST` of color.wgsl: the greatest number that passes.
 const BRIGHTEST: f32 = 1e15;
 
-/// Bits of numbers and of what is none: quiet and signalling NaN of either sign with the least, the greatest and other payloads,
-/// infinities, both zeros, denormals, the largest numbers.
+/// Bits of numbers, and of NaN and infinities: quiet and signalling NaN of either sign with the least, the greatest and other
+/// payloads, infinities, both zeros, denormals, the largest numbers.
 const BITS: [u32; 20] = [
     0x7fc0_0000,
     0xffc0_0000,

@@ -3,7 +3,7 @@
 #import asvgf::color::{is_finite, sanitize}
 
 @group(0) @binding(0) var<storage, read> numbers: array<vec4<f32>>;
-// What is let through, and whether each channel is finite as bits 0 to 2.
+// The sanitised colour, and bits 0 to 2 for the channels that are finite.
 @group(0) @binding(1) var<storage, read_write> results: array<vec4<f32>>;
 
 @compute @workgroup_size(64)

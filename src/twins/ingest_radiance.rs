@@ -13,7 +13,7 @@ fn half(bits: u32) -> f64 {
     if exponent == 0 { mantissa * 2.0_f64.powi(-24) } else { (1.0 + mantissa / 1024.0) * 2.0_f64.powi(exponent - 15) }
 }
 
-/// Colours, now and then with a channel that is none.
+/// Colours, now and then with a channel that is no number.
 fn colors(count: usize, random: &mut Random) -> Vec<[f32; 3]> {
     let broken = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.25];
     let channel = |random: &mut Random| match random.below(12) {
@@ -24,7 +24,7 @@ fn colors(count: usize, random: &mut Random) -> Vec<[f32; 3]> {
     (0..count).map(|_| [0; 3].map(|_| channel(random))).collect()
 }
 
-/// What may enter history of a channel.
+/// The value of a channel that may enter the history.
 fn clean(x: f32) -> f64 {
     match x {
         f32::INFINITY => 65504.0,
@@ -33,7 +33,7 @@ fn clean(x: f32) -> f64 {
     }
 }
 
-/// An albedo that is no number is not known, and divides by nothing.
+/// The albedo that divides. One that is no number is unknown, and divides by nothing.
 fn known(x: f32) -> f64 {
     if x.is_finite() { clean(x) } else { 1.0 }
 }
@@ -49,12 +49,12 @@ fn check(features: &[Feature], continued: bool) {
         let guide = bench.guide(&mut random);
         let records = bench.records(&guide, &mut random);
         let [mut radiance, mut albedo, emission] = [0; 3].map(|_| colors(count, &mut random));
-        // Ink, and what is bright although its albedo is 0.
+        // Ink, and surfaces that are bright although their albedo is 0.
         for i in (0..count).filter(|i| i % 7 == 3) {
             albedo[i] = [0.0; 3];
             radiance[i] = if i % 2 == 0 { [0.0; 3] } else { radiance[i] };
         }
-        // Halves: ¼, ½, 1.
+        // Powers of ½: ¼, ½, 1.
         let before: Vec<u32> = (0..count).map(|_| [0x3400, 0x3800, 0x3c00][random.below(3)]).collect();
         let texels = |image: &[[f32; 3]]| -> Vec<Texel> {
             image.iter().map(|c| [c[0].to_bits(), c[1].to_bits(), c[2].to_bits(), 0]).collect()
@@ -90,7 +90,7 @@ fn check(features: &[Feature], continued: bool) {
                     }
                 }
             }
-            // Neither light nor albedo, beside four that have one.
+            // Neither light nor albedo, beside four pixels that have one.
             let reflects = |&(x, y): &(i32, i32)| bench.at(x, y).is_some_and(|q| albedo[q].iter().any(|&a| a > 0.0));
             let around = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y)));
             let black = expected == [0.0; 3] && albedo[i] == [0.0; 3];
@@ -109,11 +109,11 @@ fn check(features: &[Feature], continued: bool) {
                     };
                     assert_close(found[c], a, 1e-3 * a, || format!("{}: albedo", what()));
                     if modulated && has(Feature::Reshade) && repeats {
-                        // The surface that was seen by the pixel whose path is repeated.
+                        // The surface of the pixel whose path is repeated.
                         let q = bench.at((record[1] & 0xffff) as i32, (record[1] >> 16) as i32).unwrap();
                         expected[c] /= half(before[q]);
                     } else if modulated {
-                        // By what was stored.
+                        // Divided by the albedo that was stored.
                         expected[c] /= found[c].max(0.02);
                     }
                 }

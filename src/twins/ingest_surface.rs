@@ -1,4 +1,4 @@
-//! A host's surfaces: what is kept, what is a miss, and where a point was.
+//! A host's surfaces: which are kept, which count as a miss, and where a point was.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, unpack_motion, unpack_normal, word};
@@ -101,7 +101,7 @@ fn check(features: &[Feature]) {
             let guide = [written["guide_out"][i][0], written["guide_out"][i][1]];
             let motion = [written["motion_out"][i][0], written["motion_out"][i][1]];
             if features.has(Feature::Objects) {
-                // Told apart just where the host does.
+                // Objects are told apart exactly where the host tells them apart.
                 for j in 0..i {
                     let same = written["object_out"][i] == written["object_out"][j];
                     assert_eq!(same, objects[i] == objects[j], "{}", what());
@@ -125,7 +125,7 @@ fn check(features: &[Feature]) {
             for (found, expected) in motion.into_iter().zip(motions[i]) {
                 assert_close(found, expected, 1.0 / 512.0, || format!("{}: motion", what()));
             }
-            // Rounded to 14 bits of mantissa, of a number that is a sum of some ten in f32.
+            // Rounded to 14 bits of mantissa; the number is a sum of some ten in f32.
             assert_close(motion[2], previous, 3.3e-5 * previous, || format!("{}: depth before", what()));
         }
     }

@@ -1,4 +1,4 @@
-//! What the last frame left: the images that reprojection reads, and a surface's history in them, in f64.
+//! The last frame's images, which reprojection reads, and a surface's history in them, in f64.
 
 use super::bench::{Bench, Texel};
 use super::codec::{
@@ -12,7 +12,7 @@ use crate::Settings;
 use crate::passes::temporal;
 use crate::plan::{Feature, Features, Step};
 
-/// Everything that the pass reads.
+/// All inputs of the pass.
 pub(super) struct Given {
     pub(super) bench: Bench,
     pub(super) features: Features,
@@ -33,14 +33,14 @@ pub(super) struct Given {
     pub(super) limit: Vec<Texel>,
 }
 
-/// What is noted on the way, see [`Blended`].
+/// Notes on the way, see [`Blended`].
 #[derive(Default)]
 pub(super) struct Notes {
     pub(super) unsure: bool,
     pub(super) largest: f64,
 }
 
-/// A history reprojected.
+/// A reprojected history.
 #[derive(Default)]
 pub(super) struct Before {
     pub(super) color: V,
@@ -49,13 +49,13 @@ pub(super) struct Before {
     pub(super) variance: f64,
     pub(super) length: f64,
     pub(super) weight: f64,
-    /// Weight of all taps on the surface, whatever they have seen.
+    /// Weight of all taps on the surface, with or without a history.
     pub(super) surface: f64,
     pub(super) output: V,
 }
 
 impl Before {
-    /// The weighted mean of the taps, if there are any to speak of.
+    /// The weighted mean of the taps; `None` if they weigh next to nothing.
     fn mean(self) -> Option<Self> {
         (self.weight > 0.01).then(|| {
             let s = 1.0 / self.weight;
@@ -67,7 +67,7 @@ impl Before {
     }
 }
 
-/// What stands for a radiance where there is none, and what marks an infinite one.
+/// Stand for a missing radiance, and mark an infinite one.
 pub(super) const NO_SAMPLE: Texel = [0, 1 << 22, 0, 0];
 pub(super) const INFINITE: u32 = 1 << 31;
 
@@ -86,7 +86,7 @@ impl Given {
         let mut random = Random(u64::from(size[0]) + u64::from(moving));
         let guide = bench.guide(&mut random);
         let now = bench.clone();
-        // The same planes as they were seen.
+        // The same planes as the last frame saw them.
         let was = Bench { camera: bench.previous, ..bench.clone() };
         let guide_before = was.guide(&mut Random(99));
         let motion =
@@ -113,7 +113,7 @@ impl Given {
             .map(|_| {
                 let length = if gaps && random.below(4) == 0 { 0.0 } else { 1.0 + 20.0 * random.unit().powi(2) };
                 let color = if features.has(Feature::Feedback) { [random.unit(); 3] } else { radiance(&mut random) };
-                // What the texture holds of it.
+                // The numbers as the texture holds them.
                 unpack_history(pack_history(Kept { color, variance: random.unit().powi(4), length }))
             })
             .collect();
@@ -130,13 +130,13 @@ impl Given {
                 0 => [0; 4],
                 1 => [0, word(0.7), 0, 0],
                 2 => [word(1.1), word(1.0), 0, 0],
-                // Below 0 where the differences have a sign.
+                // Negative if the differences have a sign.
                 3 if signed => [word(-0.6 * random.unit()), word(1.0), 0, 0],
                 _ => [word(0.6 * random.unit()), word(1.0), 0, 0],
             })
             .collect();
         let [across, down] = size.map(|s| s.div_ceil(bench.lambda_block));
-        // λ, or what is no λ: none of these may come through.
+        // λ, or a number that is no λ: none of these may come through.
         let external = (0..across * down)
             .map(|_| match random.below(8) {
                 0 => [f32::NAN.to_bits(); 4],
@@ -194,13 +194,14 @@ impl Given {
             .collect()
     }
 
-    /// A pixel's sample, if it has one.
+    /// A pixel's sample; `None` if it has none.
     pub(super) fn sample(&self, i: usize) -> Option<V> {
         let texel = self.radiance[i];
         (texel != NO_SAMPLE && texel[1] & INFINITE == 0).then(|| unpack_rgb([texel[0], texel[1]]))
     }
 
-    /// Colour, variance and length of the history under the four nearest taps, if there is one; and whether a threshold was near.
+    /// Colour, variance and length of the history under the four nearest taps, if there is one; and true if a threshold was
+    /// near.
     pub(super) fn bilinear_history(&self, i: usize, x: i32, y: i32) -> (Option<(V, f64, f64)>, bool) {
         let mut notes = Notes::default();
         let (sum, ..) = self.bilinear(i, x, y, &mut notes);
@@ -217,7 +218,7 @@ impl Given {
         if self.has(Feature::Objects) { objects[i] } else { 0 }
     }
 
-    /// Adds a tap of the history, if it shows the same surface: within 1 % of the depth of its plane, 5 % away, 26° turned.
+    /// Adds a tap of the history if it shows the same surface: within 1 % of the depth of its plane, 5 % away, 26° turned.
     fn add_tap(&self, sum: &mut Before, here: usize, origin: V, [x, y]: [i32; 2], w: f64, notes: &mut Notes) {
         let bench = &self.bench;
         notes.unsure |= (w - 1e-4).abs() < 2e-5;
@@ -268,7 +269,7 @@ impl Given {
         }
     }
 
-    /// The history of a pixel: bilinear, or else from a Gaussian over 4×4; its own, where nothing moves.
+    /// The history of a pixel: bilinear, or else from a Gaussian over 4×4; the pixel's own if nothing moves.
     pub(super) fn before(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> Option<Before> {
         if self.has(Feature::Still) {
             let (color, mean) = self.stored(i);
@@ -293,14 +294,14 @@ impl Given {
         sum.mean()
     }
 
-    /// The four taps around the place where the surface was; that place in the world and in the image, and its upper left pixel.
+    /// The four taps around the surface's former place; that place in the world and in the image, and its upper left pixel.
     fn bilinear(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> (Before, V, [f64; 2], [i32; 2]) {
         let m = self.motion[i];
         let [jx, jy] = self.bench.camera.jitter.map(f64::from);
         let point = [f64::from(x) + m[0], f64::from(y) + m[1]];
         let was = Pinhole::new(&self.bench.previous, self.bench.size);
         let origin = add(was.eye, scale(was.ray(point[0] + 0.5 + jx, point[1] + 0.5 + jy), m[2]));
-        // A motion that is whole but for rounding does not reach the next pixel.
+        // A motion that is whole but for rounding errors stays on its pixel.
         let corner = point.map(|p| (p + 1e-4).floor());
         notes.unsure |= point.iter().any(|p| ((p + 1e-4) - (p + 1e-4).round()).abs() < 1e-5);
         let f = [0, 1].map(|a| (point[a] - corner[a]).max(0.0));
@@ -316,7 +317,7 @@ impl Given {
 }
 
 impl Bench {
-    /// Where a surface that stands still was, in pixels, and how deep; now and then it moves, or comes from nowhere.
+    /// Former place, in pixels, and depth of a surface that stands still; now and then it moves, or comes from nowhere.
     fn motion(&self, x: i32, y: i32, z: f64, random: &mut Random) -> V {
         let [jx, jy] = self.camera.jitter.map(f64::from);
         let was = Pinhole::new(&self.previous, self.size).project(self.position(x, y, z));
@@ -326,7 +327,7 @@ impl Bench {
             _ => [0.0; 2],
         };
         let moved = [was[0] - f64::from(x) - 0.5 - jx + extra[0], was[1] - f64::from(y) - 0.5 - jy + extra[1], was[2]];
-        // As the texture holds it.
+        // The numbers as the texture holds them.
         unpack_motion(pack_motion(moved))
     }
 }

@@ -1,14 +1,14 @@
-//! Structs that exist twice, in Rust and in WGSL, must agree on where each field lies.
+//! Structs that exist twice, in Rust and in WGSL, must agree on the place of each field.
 
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::passes::{Pass, trace};
 use crate::plan::{Feature, Features};
 use wgpu::naga::{Module, TypeInner};
 
-/// A field's name in WGSL and where Rust has it.
+/// A field's name in WGSL and its place in Rust.
 pub(crate) type Field = (&'static str, usize);
 
-/// Asserts that a struct of the tracing shader has just these fields at these offsets and this size.
+/// Asserts that a struct of the tracing shader has exactly these fields at these offsets, and this size.
 pub(crate) fn assert_layout(name: &str, fields: &[Field], size: usize) {
     use Feature::*;
     let features =
@@ -16,7 +16,7 @@ pub(crate) fn assert_layout(name: &str, fields: &[Field], size: usize) {
     assert_layout_in(&trace::PASS, features, name, fields, size);
 }
 
-/// As [`assert_layout`], in another shader.
+/// [`assert_layout`] for another shader.
 pub(crate) fn assert_layout_in(pass: &'static Pass, features: Features, name: &str, fields: &[Field], size: usize) {
     let permutation = Permutation { pass, features, traversal: Default::default(), view: None };
     let module = Shaders::new().and_then(|mut s| s.compose(permutation)).unwrap_or_else(|e| panic!("{e}"));
@@ -29,7 +29,7 @@ fn find(module: &Module, name: &str) -> (Vec<(String, usize)>, usize) {
     for (_, ty) in module.types.iter() {
         let plain = ty.name.as_deref().unwrap_or_default().split("X_naga_oil").next();
         if let (true, TypeInner::Struct { members, span }) = (plain == Some(name), &ty.inner) {
-            // Padding has no name worth comparing.
+            // Padding has no name to compare.
             let named = members.iter().filter_map(|m| Some((m.name.clone()?, m.offset as usize)));
             return (named.filter(|(n, _)| !n.starts_with("_pad")).collect(), *span as usize);
         }

@@ -1,8 +1,8 @@
-//! Tests of the shaders that need the crate's inside: each pass alone against its f64 twin on the CPU, the layout of what
-//! is uploaded, every permutation, and the traversal.
+//! Tests of the shaders that need the crate's inside: each pass alone against its f64 twin on the CPU, the layout of uploaded
+//! structs, every permutation, and the traversal.
 //!
-//! Twins follow the documented equations in f64; they share no code with the shaders. Inputs are what the textures hold, so
-//! that only the arithmetic between loading and storing differs.
+//! Twins follow the documented equations in f64 and share no code with the shaders. Their inputs are the numbers that the
+//! textures hold, so that only the arithmetic between loading and storing differs.
 
 mod bench;
 mod browser;

@@ -1,4 +1,4 @@
-//! What is left out of a plan is left out of its shaders, as naga sees them, of its bindings and of its memory.
+//! A feature that a plan leaves out is left out of its shaders, as naga sees them, of its bindings and of its memory.
 
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::passes::{Pass, resolve, temporal, trace, visibility};
@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use wgpu::TextureFormat;
 use wgpu::naga::Module;
 
-/// The same of all scenes that have everything but a GPU-less few triangles.
+/// A scene with everything but few triangles.
 const ALL: SceneContents = SceneContents {
     instanced: true,
     textures: true,
@@ -44,19 +44,19 @@ fn names(module: &Module) -> BTreeSet<&str> {
     functions.chain(globals).map(|name| name.split("X_naga_oil").next().unwrap_or(name)).collect()
 }
 
-/// How much code there is.
+/// The amount of code.
 fn expressions(module: &Module) -> usize {
     let entries = module.entry_points.iter().map(|entry| entry.function.expressions.len());
     entries.chain(module.functions.iter().map(|(_, f)| f.expressions.len())).sum()
 }
 
-/// A step with a feature, and the step of the same pass where that is left out.
+/// A step with a feature, and the step of the same pass without it.
 fn pair<'a>(with: &'a Plan, without: &'a Plan, pass: &Pass) -> [&'a Step; 2] {
     [with, without]
         .map(|plan| plan.steps.iter().find(|step| step.pass == pass).unwrap_or_else(|| panic!("no {pass:?}")))
 }
 
-/// Asserts that a step has lost code, and just these functions and bindings.
+/// Asserts that a step has lost code, and exactly these functions and bindings.
 fn assert_leaner(shaders: &mut Shaders, [with, without]: [&Step; 2], lost: &[&str]) {
     let [with, lean] = [with, without].map(|step| compose(shaders, step));
     let what = format!("{:?} with {:?}", without.pass, without.features);
@@ -145,7 +145,7 @@ fn what_the_settings_and_the_frame_do_not_ask_for_is_not_in_the_shaders() {
         assert!(names(&compose(&mut shaders, with)).contains(binding), "{binding}");
         assert!(!names(&compose(&mut shaders, without)).contains(binding), "{binding}");
     }
-    // A frame in which nothing changed runs the passes that a constant α does.
+    // A frame in which nothing changed runs the same passes as a constant α.
     let quiet = plan(&ALL, FilterSettings::default(), Changes { camera: true, scene: false });
     let passes = |plan: &Plan| plan.steps.iter().map(|step| step.pass).collect::<Vec<_>>();
     assert_eq!(passes(&quiet), passes(&constant));

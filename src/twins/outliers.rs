@@ -1,4 +1,4 @@
-//! Outliers: candidates, the limit that those around set, and how far a sample is believed.
+//! Outliers: candidates, the limit that the strata around set, and how far a sample is believed.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, float, luminance, unpack_rgb, word};
@@ -11,7 +11,7 @@ use crate::plan::{Feature, Features};
 const MOST_RATIO: f64 = 1e9;
 const LEAST_LEVEL: f64 = 0.25;
 
-/// What a stratum's record says.
+/// A stratum's record.
 #[derive(Clone, Copy, Debug, Default)]
 struct Candidate {
     brightest: f64,
@@ -67,7 +67,7 @@ impl Candidate {
     }
 }
 
-/// What is believed in a stratum.
+/// The limit of a stratum.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Limit {
     pub(super) ratio: f64,
@@ -100,8 +100,8 @@ pub(super) fn ratio_to(bound: f64, l: f64) -> f64 {
     if l > 0.0 { (l / bound.max(l / MOST_RATIO)).min(MOST_RATIO) } else { 0.0 }
 }
 
-/// Whether light of this luminance is believed in a stratum beside a history, as far as pairs and means go: `leeway` times as much as a
-/// sample; the second says where that is a matter of rounding.
+/// True if light of this luminance is believed in a stratum beside a history, for pairs and means: `leeway` times as much as
+/// a sample. The second is true where rounding decides.
 pub(super) fn believed(settings: &Settings, limit: Texel, history: [f64; 2], l: f64, leeway: f64) -> (bool, bool) {
     let limit = Limit::unpack(limit);
     let [level, length] = history;
@@ -110,7 +110,7 @@ pub(super) fn believed(settings: &Settings, limit: Texel, history: [f64; 2], l: 
     (ratio <= limit.ratio, (ratio / limit.ratio - 1.0).abs() < 1e-2)
 }
 
-/// How far a sample is believed: its weight, what its luminance is brought down by, and whether it was seen so often that the history
+/// How far a sample is believed: its weight, the factor on its luminance, and true if it was seen so often that the history
 /// is wrong.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Belief {
@@ -121,7 +121,7 @@ pub(super) struct Belief {
 }
 
 impl Given {
-    /// `level` and `length` are those of the history, 0 where there is none. Notes where a threshold is near.
+    /// `level` and `length` are those of the history, 0 if there is none. Notes that a threshold is near.
     pub(super) fn belief(
         &self,
         [x, y]: [i32; 2],
@@ -141,14 +141,14 @@ impl Given {
         let confirmed = here && candidate.sightings == limit.sightings || over && candidate.running >= limit.sightings;
         let mut scale = if over && !confirmed { limit.ratio / ratio } else { 1.0 };
         if self.has(Feature::ExternalLambda) {
-            // The host knows better.
+            // The host's λ comes first.
             scale += (1.0 - scale) * lambda;
         }
         Belief { weight: scale * scale, scale, confirmed, around: limit.level }
     }
 }
 
-/// Records as a frame may leave them.
+/// Records that a frame may leave.
 pub(super) fn candidates(bench: &Bench, random: &mut Random) -> Vec<Texel> {
     let [across, down] = bench.size.map(|s| s.div_ceil(3));
     (0..across * down)
@@ -176,7 +176,7 @@ pub(super) fn candidates(bench: &Bench, random: &mut Random) -> Vec<Texel> {
         .collect()
 }
 
-/// Limits as a frame may leave them.
+/// Limits that a frame may leave.
 pub(super) fn limits(bench: &Bench, random: &mut Random) -> Vec<Texel> {
     let [across, down] = bench.size.map(|s| s.div_ceil(3));
     (0..across * down)
@@ -189,7 +189,7 @@ pub(super) fn limits(bench: &Bench, random: &mut Random) -> Vec<Texel> {
         .collect()
 }
 
-/// A stratum's record as the formulas have it; the second says where a threshold was near.
+/// A stratum's record by the formulas; the second is true where a threshold was near.
 fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -> (Candidate, bool) {
     let bench = &given.bench;
     let mut unsure = false;
@@ -296,7 +296,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
     }
     now.running = match found {
         true => (now.running + 1).min(7),
-        // Nothing was learnt.
+        // Nothing was learnt in this frame.
         false if carried.0 != 0 => now.running,
         false => 0,
     };
@@ -345,7 +345,7 @@ fn candidates_are_what_is_far_above_its_level() {
     assert!(found * 8 > compared && unsure * 5 < compared, "{found} of {compared}, {unsure} unsure: no grip");
 }
 
-/// The limit of a stratum, from all records of its window at once; the second says where a threshold was near.
+/// The limit of a stratum from all records of its window at once; the second is true where a threshold was near.
 fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) {
     let extent = bench.size.map(|s| s.div_ceil(3) as i32);
     let range = |at: i32, extent: i32| {
@@ -380,12 +380,12 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
     let asked = ((6.0 + 4.0 * (here.length / 3.0).min(1.0)) * (strata / 169.0_f64).sqrt()).ceil().max(3.0);
     let mut unsure = (sums[0] / most - 1.0).abs() < 1e-3 || (lit / (0.15 * all_seen) - 1.0).abs() < 1e-6;
     unsure |= (few / (0.2 * lit) - 1.0).abs() < 1e-6;
-    // One on the border of two classes may be in either.
+    // A ratio on the border of two classes may be in either.
     unsure |= classes.iter().any(|c| (c - c.round()).abs() < 1e-4);
     let believed = (0..15).rev().find(|&k| classes.iter().filter(|c| **c >= f64::from(k)).count() as f64 >= asked);
     let sightings = if doubtful { 6 } else { 3 };
     let ratio = match believed.filter(|_| !doubtful) {
-        // Nothing speaks against a sample where nothing was seen.
+        // All is believed where no sample was seen.
         _ if strata == 0.0 => 3e38,
         None => 1.0,
         Some(13 | 14) => 3e38,
@@ -404,7 +404,7 @@ fn a_limit_is_what_the_window_has_seen() {
         let records: Vec<Texel> = candidates(&bench, &mut Random(seed))
             .into_iter()
             .map(|texel| {
-                // Hardly any, or many.
+                // Hardly any candidates, or many.
                 let mut c = Candidate::unpack(texel);
                 if seed == 1 {
                     (c.candidates, c.lit) = (0, c.seen);

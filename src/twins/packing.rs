@@ -28,7 +28,7 @@ fn cases() -> Vec<Case> {
             }
         })
         .collect();
-    // What lies at an edge: nothing, one channel alone, the largest mantissa, powers of two, motions at their ends.
+    // Numbers at an edge: nothing, one channel alone, the largest mantissa, powers of two, motions at their ends.
     let edges =
         [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1e-30], [1e30, 0.0, 1e29], [0.999_999_9; 3], [2.0; 3], [1e-36; 3]];
     for (case, color) in cases.iter_mut().zip(edges) {
@@ -44,7 +44,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Of the unfolded octahedron: x and y where z ≥ 0, folded over the edges |x| + |y| = 1 below.
+/// A point of the unfolded octahedron: x and y if z ≥ 0, folded over the edges |x| + |y| = 1 below.
 fn octahedral(bits: u32) -> V {
     let [x, y] = [bits & 0xffff, bits >> 16].map(|b| f64::from(b) * 2.0 / 65535.0 - 1.0);
     let z = 1.0 - x.abs() - y.abs();

@@ -1,5 +1,5 @@
 //! Every shader that some scene and some settings can ask for compiles, within core WebGPU and the default limits, and asks
-//! for just the bindings that its step names.
+//! for exactly the bindings that its step names.
 
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
@@ -23,16 +23,16 @@ fn noop_device() -> (Device, Queue) {
     pollster::block_on(adapter.request_device(&DeviceDescriptor::default())).unwrap()
 }
 
-/// All combinations: at some 150 shaders a second they are checked in a quarter of a minute.
+/// All combinations of contents. Some 150 shaders a second are checked, all in a quarter of a minute.
 fn contents() -> Vec<SceneContents> {
     (0_u32..8192)
-        // Only images may be folded. It changes one function, and is tried with a part of the rest.
+        // Only images may be folded. Folding changes one function, so it is tried with a part of the rest.
         .filter(|bits| bits >> 12 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1101_0110_0000 == 0)
-        // Where each triangle is tested, there is no alpha mask.
+        // There is no alpha mask where each triangle is tested.
         .filter(|bits| bits >> 4 & 1 == 0 || bits >> 9 & 1 == 0)
         // Colours of vertices have nothing in common with the kinds of light.
         .filter(|bits| bits >> 10 & 1 == 0 || bits >> 5 & 15 == 15)
-        // A material that is blended has an opacity to test; the normals have nothing in common with it.
+        // A blended material has an opacity to test; the normals have nothing in common with it.
         .filter(|bits| bits >> 11 & 1 == 0 || bits >> 4 & 1 == 1 && bits >> 2 & 3 == 3)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
@@ -98,7 +98,7 @@ fn host_inputs() -> Vec<HostInputs> {
         .collect()
 }
 
-/// All filters that differ in what is compiled.
+/// All filters that differ in the compiled code.
 fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
     let switches = |bits: u32| {
         let on = |i: u32| bits >> i & 1 == 1;
@@ -127,8 +127,8 @@ fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
         .collect()
 }
 
-/// Plans whose steps cover what is reachable: tracing depends on contents, sampling and gradient alone, filtering on the
-/// filter and on whether there are objects.
+/// Plans whose steps cover all that is reachable: tracing depends on contents, sampling and gradient alone, filtering on the
+/// filter and on the presence of objects.
 fn plans() -> Vec<Plan> {
     let mut plans = Vec::new();
     for (contents, (sampling, gradient)) in product(&contents(), &product(&SAMPLINGS, &GRADIENTS)) {
@@ -164,8 +164,8 @@ fn plans() -> Vec<Plan> {
     plans
 }
 
-/// The same for hosts' frames: taking them in depends on the contents and the gradient, filtering on the filter, on whether there
-/// are objects, and on what kind of pairs or λ there is.
+/// The same for hosts' frames: taking them in depends on the inputs and the gradient; filtering depends on the filter, on the
+/// presence of objects, and on the kind of pairs or λ.
 fn host_plans() -> Vec<Plan> {
     let mut plans = Vec::new();
     for (inputs, gradient) in product(&host_inputs(), &HOST_GRADIENTS) {
@@ -225,7 +225,7 @@ pub(super) fn steps() -> BTreeMap<Permutation, Step> {
     steps
 }
 
-/// The same for every size of stack and of few triangles, in a scene that has all.
+/// The same for every size of stack and of few triangles, in a scene that has everything.
 pub(super) fn traversals() -> BTreeMap<Permutation, Step> {
     let stacks = [4, 64].map(|stack| Traversal::Tree { stack });
     let counts = [8, 16, 24, 32, 40, 48, 56, 64].map(|triangles| Traversal::Every { triangles });
@@ -290,7 +290,7 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
     println!("{counts:?}");
     assert_eq!(counts.len(), 23, "a pass is never run: {counts:?}");
     let reached: Features = steps.keys().flat_map(|permutation| permutation.features.iter()).collect();
-    // It decides which passes there are, and nothing within them.
+    // Statistics decide which passes there are, and nothing within them.
     let reached = reached.with(Feature::Statistics);
     let unreached: Vec<_> = Feature::ALL.iter().filter(|feature| !reached.has(**feature)).collect();
     assert!(unreached.is_empty(), "never compiled in: {unreached:?}");

@@ -1,4 +1,4 @@
-//! What the formulas promise of every input, tried on the twins with inputs that `proptest` makes up and shrinks.
+//! Promises of the formulas for every input, tried on the twins with inputs that `proptest` makes up and shrinks.
 
 use super::atrous;
 use super::bench::{Bench, Texel};
@@ -13,11 +13,11 @@ use proptest::prelude::*;
 const SIZE: [u32; 2] = [9, 9];
 const COUNT: usize = (SIZE[0] * SIZE[1]) as usize;
 
-/// What the pixels of an image hold: colour, deviation, slope of the normal, depth; a part of them sees nothing.
+/// A pixel of an image: colour, deviation, slope of the normal, depth. A part of the pixels sees nothing.
 type Pixel = (V, f64, [f64; 2], f64, bool);
 
 fn pixel() -> impl Strategy<Value = Pixel> {
-    // From nothing to what no renderer shows.
+    // From black to brighter than any renderer's light.
     let number = || prop_oneof![Just(0.0), 1e-6..1e-3, 1e-3..1.0, 1.0..1e6];
     let color = [number(), number(), number()];
     let slope = [-0.3..0.3, -0.3..0.3];
@@ -28,7 +28,7 @@ fn pixels() -> impl Strategy<Value = Vec<Pixel>> {
     prop::collection::vec(pixel(), COUNT)
 }
 
-/// The taps of an image, seen straight on.
+/// The taps of an image that is seen straight on.
 fn taps(pixels: &[Pixel]) -> Vec<Texel> {
     let tap = |&(color, deviation, [x, y], depth, seen): &Pixel| {
         let [a, b] = pack_tap(color, deviation);
@@ -63,8 +63,8 @@ fn config() -> ProptestConfig {
 proptest! {
     #![proptest_config(config())]
 
-    /// A weighted mean is within the range of what it averages; the fitted plane within half and one and a half of that; and no
-    /// weight makes noise of less noise.
+    /// A weighted mean is within the range of its terms, the fitted plane within half and one and a half of that mean; and no
+    /// weights make less noise into more.
     #[test]
     fn spatial_filter_stays_within_the_range_of_its_taps(
         pixels in pixels(),
@@ -90,7 +90,7 @@ proptest! {
         }
     }
 
-    /// Where all is equal nothing changes, whatever the noise and the shape of the surface.
+    /// A uniform image does not change, whatever the noise and the shape of the surface.
     #[test]
     fn spatial_filter_keeps_what_is_equal(pixels in pixels(), color in [0.0..1e3, 0.0..1e3, 0.0..1e3], linear in any::<bool>()) {
         let equal: Vec<Pixel> = pixels.into_iter().map(|(_, d, n, z, s)| (color, d, n, z, s)).collect();
@@ -105,14 +105,14 @@ proptest! {
         }
     }
 
-    /// On a wall where noise stops nothing, the kernel is the same everywhere: what one pixel loses another gains.
+    /// On a wall where noise stops nothing, the kernel is the same everywhere: each pixel gains what another loses.
     #[test]
     fn spatial_filter_keeps_energy(lit in 0.0..1e3, full in any::<bool>()) {
         let filter = FilterSettings { sigma_luminance: 1e6, ..Default::default() };
         let bench = bench(filter);
         let wall = |color: f64| ([color; 3], 1e3, [0.0; 2], 4.0, true);
         let mut pixels = vec![wall(0.0); COUNT];
-        // What reaches the middle has all its taps.
+        // A pixel that reaches the middle has all its taps.
         pixels[bench.at(4, 4).unwrap()] = wall(lit);
         let image = taps(&pixels);
         let features: &[Feature] = if full { &[FullKernel] } else { &[] };
@@ -148,7 +148,8 @@ proptest! {
         }
     }
 
-    /// The running mean and variance of n samples are their mean and variance (West 1979), to what 18 bits of a sample round.
+    /// The running mean and variance of n samples are their mean and variance (West 1979), to the rounding of a sample to 18
+    /// bits.
     #[test]
     fn history_is_the_mean_and_the_variance_of_its_samples(samples in prop::collection::vec(0.0..100.0_f64, 2..40)) {
         let mut given = Given::new([1, 1], &[Feature::VarianceOfMean], Settings::adaptive().constant(0.0), false);
@@ -172,7 +173,7 @@ proptest! {
         prop_assert!((out.variance - variance).abs() <= 1e-3 * 100.0 * 100.0_f64.min(1.0 + variance), "{} is not {variance}", out.variance);
     }
 
-    /// A blend is within the range of history, rescaled, and sample; lengths and λ are within theirs.
+    /// A blend is within the range of the rescaled history and the sample; lengths and λ are within theirs.
     #[test]
     fn temporal_filter_stays_within_the_range_of_what_it_blends(alpha in 0.0..1.0_f32, power in 0.0..10.0_f32, moving in any::<bool>()) {
         let filter = FilterSettings { alpha, history_power: power, max_history: 16.0, ..Default::default() };

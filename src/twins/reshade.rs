@@ -1,4 +1,4 @@
-//! What a host is handed to repeat a path: which, and how far its surface has moved.
+//! The data that a host needs to repeat a path: the path, and the displacement of its surface.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, float, unpack_normal, word};
@@ -8,11 +8,11 @@ use crate::Settings;
 use crate::passes::{Step, reshade};
 use crate::plan::{Feature, Features};
 
-/// How pixels move, column by column.
+/// Motions of the pixels, column by column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Rests,
-    /// Rests, and the host's numbers are f16.
+    /// Rests, with the host's numbers in f16.
     RestsRounded,
     Moves,
 }
@@ -27,7 +27,7 @@ fn round_to_f16(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { (x / step).round() * step }
 }
 
-/// Where a pixel's point was: image point less the pixel's, and depth.
+/// The former place of a pixel's point: image point less the pixel's, and depth.
 fn motion(bench: &Bench, x: i32, y: i32, z: f64, shift: V) -> V {
     let [jx, jy] = bench.camera.jitter.map(f64::from);
     let p = Pinhole::new(&bench.previous, bench.size).project(sub(bench.position(x, y, z), shift));
@@ -52,7 +52,7 @@ fn check(features: Features) {
         let guide_before = was.guide(&mut Random(62));
         let mut records = bench.records(&guide, &mut random);
         for (s, (x, y)) in bench.strata().into_iter().enumerate() {
-            // Half of the paths were seen by the same pixel.
+            // The same pixel saw half of the paths.
             if records[s][0] != 0 && random.unit() < 0.5 {
                 let (px, py) = Bench::sample_pixel(records[s], x, y);
                 records[s][1] = px as u32 | (py as u32) << 16;
@@ -97,7 +97,7 @@ fn check(features: Features) {
             let i = bench.at(px, py).unwrap();
             let z = depth(guide[i]);
             let now = bench.position(px, py, z);
-            // On the same surface still, for a point that 16 bits have moved a little?
+            // True if a point that 16 bits have moved a little is still on the surface.
             let off = dot(unpack_normal(guide[i][0]), sub(now, was.position(qx, qy, depth(q)))).abs();
             match kind(px) {
                 Kind::Rests => {
@@ -120,7 +120,7 @@ fn check(features: Features) {
             }
             let ray = was.pinhole().ray(f64::from(px) + 0.5 + jx + m[0], f64::from(py) + 0.5 + jy + m[1]);
             let expected = sub(now, add(was.pinhole().eye, scale(ray, m[2])));
-            // What 16 bits have moved may be too little to be told from nothing.
+            // A move that 16 bits have made may be too small to be told from none.
             let least = length(expected) < 1.5e-5 * z;
             for c in 0..3 {
                 let found = float(shift[c]);

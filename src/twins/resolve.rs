@@ -1,4 +1,4 @@
-//! The picture put together: colour · albedo + emission, and its mean over frames.
+//! The picture: colour · albedo + emission, and its mean over frames.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
@@ -105,7 +105,7 @@ fn check(features: &[Feature], bright: f64) {
                     } else {
                         (float(target[c]), 1e-6, 3.4e38)
                     };
-                    // Drivers may cut instead of rounding to f16, which has steps of 2⁻²⁴ near 0.
+                    // Drivers may truncate instead of rounding to f16, which has steps of 2⁻²⁴ near 0.
                     let (expected, tolerance) = (expected.min(limit), rounding * expected.abs() + 6e-8);
                     assert_close(found, expected, tolerance, || format!("{size:?} {i}, {features:?}, {continued}"));
                 }
@@ -133,6 +133,6 @@ fn every_way_of_putting_it_together() {
     for features in sets {
         check(features, 1.0);
     }
-    // Brighter than f16 goes: the largest number that it holds, not infinity.
+    // A radiance above the range of f16 becomes its largest number, not infinity.
     check(&[Albedo, Unfiltered, DirectEmission, TargetF16], 1e20);
 }

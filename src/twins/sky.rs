@@ -1,4 +1,4 @@
-//! The GPU's light samples of an environment, against the picture itself.
+//! The GPU's light samples of an environment against the picture itself.
 
 use super::compute::compute_with;
 use super::gpu::gpu;
@@ -25,7 +25,7 @@ fn picture(width: u32, height: u32) -> Environment {
     };
     let mut radiance: Vec<[f32; 3]> = (0..width * height).map(texel).collect();
     let sun = height / 4 * width + width * 2 / 3;
-    // As strong as all the rest together, about.
+    // About as strong as all the rest together.
     radiance[sun as usize] = [1.0, 0.9, 0.7].map(|c| c * (width * height) as f32);
     Environment { width, height, radiance }
 }
@@ -45,7 +45,7 @@ fn draw(environment: &Environment, numbers: &[[f32; 4]]) -> Vec<[[f32; 4]; 2]> {
 fn check(width: u32, height: u32) {
     let environment = picture(width, height);
     let mut random = Random(5);
-    // As the path tracer's: 24 bits.
+    // 24 bits, as the path tracer draws them.
     let mut number = || ((random.unit() * 16_777_216.0) as u32 as f32) / 16_777_216.0;
     let numbers: Vec<[f32; 4]> = (0..SAMPLES).map(|_| [number(), number(), number(), 0.0]).collect();
     let seen: Vec<[f32; 3]> = environment.radiance.iter().map(|&c| unpack(pack(c))).collect();

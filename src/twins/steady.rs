@@ -8,7 +8,7 @@ use crate::Settings;
 use crate::passes::{Nth, Step, steady};
 use crate::plan::{Features, Image};
 
-/// Mean and deviation of a channel over the 3×3 pixels of the same surface; and whether a normal was at the threshold.
+/// Mean and deviation of a channel over the 3×3 pixels of the same surface; and true if a normal was at the threshold.
 fn around(bench: &Bench, guide: &[[u32; 2]], colors: &[V], [x, y]: [i32; 2], channel: usize) -> (f64, f64, bool) {
     let normal = unpack_normal(guide[bench.at(x, y).unwrap()][0]);
     let mut unsure = false;

@@ -6,15 +6,15 @@ use super::plane::{V, dot, sub};
 use super::random::Random;
 use crate::plan::Grid;
 
-/// Distance from the plane that is tolerated, in parts of the depth.
+/// Tolerated distance from the plane, in parts of the depth.
 const REACH: f64 = 0.02;
 
-/// What stands for e⁻ˣ: (1 − x/8)⁸, and nothing from 8 on.
+/// Falls off like e⁻ˣ: (1 − x/8)⁸, and 0 from 8 on.
 pub(super) fn falloff(x: f64) -> f64 {
     (1.0 - x / 8.0).max(0.0).powi(8)
 }
 
-/// Where a stratum's sample lies.
+/// The surface point of a stratum's sample.
 pub(super) struct Site {
     pub position: V,
     pub normal: V,
@@ -63,7 +63,7 @@ impl Bench {
         Site { position: self.position(px, py, depth), normal: unpack_normal(record[2]), depth }
     }
 
-    /// Taps of one iteration of the filter over strata: which stratum, and its weight.
+    /// Taps of one iteration of the filter over strata: the stratum and its weight.
     pub fn strata_taps(&self, records: &[Texel], x: i32, y: i32, stride: i32) -> Vec<(usize, [f64; 2])> {
         let here = self.site(records[self.stratum(x, y).unwrap()], x, y);
         let offsets = (-1..=1).flat_map(|dy: i32| (-1..=1).map(move |dx: i32| (dx, dy)));
@@ -79,7 +79,8 @@ impl Bench {
     }
 }
 
-/// Distance of a site from another's plane in parts of the reach, and the angle between their normals.
+/// Exponent of the geometric weight: distance of a site from another's plane in parts of the reach, and the angle between
+/// their normals.
 pub(super) fn exponent(here: &Site, there: &Site, depth: f64) -> f64 {
     let distance = dot(here.normal, sub(there.position, here.position)).abs();
     distance / (REACH * depth) + 32.0 * (1.0 - dot(here.normal, there.normal))

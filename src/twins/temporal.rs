@@ -12,7 +12,7 @@ use crate::passes::{Nth, Step, temporal};
 use crate::plan::{Feature, Image};
 use crate::{FilterSettings, Settings};
 
-/// What the formulas make of a pixel.
+/// A pixel by the formulas.
 #[derive(Debug, Default)]
 pub(super) struct Blended {
     pub(super) color: V,
@@ -25,11 +25,11 @@ pub(super) struct Blended {
     /// The last output, reprojected and rescaled, and its weight in this one.
     last_output: V,
     steadiness: f64,
-    /// It is not wholly believed.
+    /// True if the sample is not wholly believed.
     outlier: bool,
-    /// A threshold was so near that rounding may decide otherwise.
+    /// True if a threshold was so near that rounding may decide otherwise.
     unsure: bool,
-    /// The largest numbers that went in: errors are relative to these.
+    /// The largest numbers that went in; errors are relative to these.
     largest: f64,
 }
 
@@ -66,7 +66,7 @@ impl Given {
                 weights += w;
             }
             *unsure |= (weights / 1e-4 - 1.0).abs() < 0.1;
-            // What is around counts too, so that thin surfaces do not miss a change.
+            // The strata on any surface count too, so that thin surfaces do not miss a change.
             let part = |[numerator, denominator]: [f64; 2]| {
                 if denominator > 0.0 { numerator.abs() / denominator } else { 0.0 }
             };
@@ -82,13 +82,13 @@ impl Given {
         found
     }
 
-    /// What a sample is compared with.
+    /// The level that a sample is compared with.
     fn level(&self, before: &Before) -> f64 {
         let output = if self.has(Feature::Steady) { luminance(before.output) } else { 0.0 };
         luminance(before.color).max(output)
     }
 
-    /// The host's, if it is a number.
+    /// The host's λ, if it is a number.
     fn external_lambda(&self, x: i32, y: i32) -> f64 {
         let block = self.bench.lambda_block as i32;
         let across = self.bench.size[0].div_ceil(self.bench.lambda_block) as i32;
@@ -119,7 +119,7 @@ impl Given {
             .has(Feature::Outliers)
             .then(|| self.belief([x, y], l, [level[0], level[1], out.lambda], &mut out.unsure));
         if let Some(belief) = belief {
-            // Without a history: the sample as far as it is believed, else as bright as what is around.
+            // Without a history: the sample as far as it is believed, the rest as bright as the pixels around.
             let doubted = belief.around.min(l) / l.max(1e-37);
             let first = belief.weight * belief.scale + (1.0 - belief.weight) * doubted;
             out.color = scale(sample, first);
@@ -129,7 +129,7 @@ impl Given {
             l *= belief.scale;
         }
         let Some(mut before) = before else { return out };
-        // A still image's history may be longer than others are allowed to be.
+        // The history of a still image may be longer than others are allowed to be.
         let mut kept = before.length.min(f.max_history.into());
         let mut rescaled = 1.0;
         out.last_output = before.output;
@@ -157,7 +157,7 @@ impl Given {
             least.max(1.0 / out.length)
         };
         if alpha > 1.0 / out.length {
-            // What the weighted mean is worth: 1/Σw² of weights that add up to 1.
+            // The effective number of samples: 1/Σw² of weights that add up to 1.
             let worth = 1.0 / ((1.0 - alpha).powi(2) / kept.max(1e-9) + alpha.powi(2));
             out.length = worth.min(f.max_history.into());
         }
@@ -170,7 +170,7 @@ impl Given {
         }
         let stratum = self.bench.stratum(x / 3, y / 3).unwrap();
         if self.has(Feature::InPlace) && self.samples[stratum][0] as i32 == y % 3 * 3 + x % 3 + 1 {
-            // What repeats a path is not new: it only fills in for what λ drops.
+            // A repeated path is no new sample: it only replaces what λ drops.
             alpha = out.lambda * belief.map_or(1.0, |b| b.weight);
             out.length = kept.max(1.0);
         }
@@ -181,7 +181,7 @@ impl Given {
             out.length = if trusted > 0.5 { trusted.max(1.0) } else { 0.0 };
         }
         out.alpha = alpha;
-        // k frames before this one; nothing where the light changes, and less between pixels.
+        // Weight by the k frames before this one; 0 where the light changes, and less between pixels.
         let k = (out.length - 1.0).max(0.0);
         let f = if self.has(Feature::Still) { [0.0; 2] } else { [0, 1].map(|a| self.motion[i][a].rem_euclid(1.0)) };
         let between = 2.0 * f.iter().map(|f| f * (1.0 - f)).sum::<f64>();
@@ -278,7 +278,7 @@ fn check(features: &[Feature], settings: &Settings) {
     assert!(unsure * 10 <= compared && followed * 4 >= compared, "{features:?}: the test has lost its grip");
 }
 
-/// Asserts that what is expected, give or take some, was rounded as it had to be.
+/// Asserts that an expected number, give or take some, was rounded as it had to be.
 fn assert_kept(words: [u32; 2], expected: &Blended, color: V, tolerance: f64, random: V, what: &dyn Fn() -> String) {
     let bits = u64::from(words[0]) | u64::from(words[1]) << 32;
     let field = |shift: u32, width: u32| (bits >> shift & ((1 << width) - 1)) as f64;
@@ -298,7 +298,7 @@ fn assert_kept(words: [u32; 2], expected: &Blended, color: V, tolerance: f64, ra
     for (shift, c) in [0, 13, 26].into_iter().zip(color) {
         between(field(shift, 13), around(c, tolerance).map(|c| c / scale * 8192.0), random[0], "colour");
     }
-    // The code of 2⁻²⁰ is 0, and without an exponent there is nothing.
+    // The code of 2⁻²⁰ is 0, which stands for no variance.
     let variance = |v: f64| variance_code((v / (scale * scale)).max(VARIANCE_UNIT));
     let [low, high] = around(expected.variance, squared).map(variance);
     between(field(47, 9), [if low < 16.0 { -1.0 } else { low }, high.max(16.0)], random[1], "variance");

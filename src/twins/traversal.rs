@@ -1,4 +1,4 @@
-//! The traversal against obvhs' own on the CPU, over world-space triangles that are gathered here once more.
+//! The traversal against obvhs' own on the CPU, over world-space triangles that this test gathers itself.
 
 use super::gpu::gpu;
 use super::random::Random;
@@ -15,37 +15,37 @@ use wgpu::{BufferUsages, ComputePipelineDescriptor, ShaderModuleDescriptor, Shad
 
 const RAYS: usize = 100_000;
 
-/// Distances agree to this, relative: f32 intersections in object space against others in world space.
+/// Relative tolerance of distances: f32 intersections in object space against others in world space.
 const DISTANCE: f64 = 1e-4;
 
-/// And to this part of the scene's size, as positions are rounded before their small differences are taken.
+/// Tolerance in parts of the scene's size, because positions are rounded before their small differences are taken.
 const POSITION: f64 = 3e-6;
 
-/// Nearer to an edge than this, in barycentric weights, rounding decides what a ray meets.
+/// Distance from an edge, in barycentric weights, within which rounding decides what a ray meets.
 const EDGE: f64 = 1e-4;
 
 struct Query {
     origin: DVec3,
     direction: DVec3,
     limit: f64,
-    /// Of the scene, in lengths of the direction.
+    /// Size of the scene, in lengths of the direction.
     size: f64,
 }
 
 impl Query {
-    /// How far a distance may be off.
+    /// Tolerance of a distance.
     fn tolerance(&self, distance: f64) -> f64 {
         DISTANCE * distance + POSITION * self.size
     }
 }
 
-/// What the GPU says of a query.
+/// The GPU's answer to a query.
 struct Answer {
-    /// `None` where nothing was hit.
+    /// `None` if nothing was hit.
     distance: Option<f64>,
     occluded: bool,
     weights: [f64; 2],
-    /// Three times the centre of the triangle: whichever numbers it has, this names it.
+    /// Three times the centre of the triangle, which names it whatever its number.
     corners: DVec3,
 }
 
@@ -78,7 +78,7 @@ fn triangles(scene: &Scene, pose: &Pose) -> Vec<[DVec3; 3]> {
     all
 }
 
-/// Where a ray meets a triangle's plane, by Cramer's rule; `None` where it is parallel or behind.
+/// The point where a ray meets a triangle's plane, by Cramer's rule; `None` if the plane is parallel or behind.
 fn meet(query: &Query, [a, b, c]: &[DVec3; 3]) -> Option<(f64, [f64; 2])> {
     let (e1, e2, s) = (b - a, c - a, query.origin - a);
     let p = query.direction.cross(e2);
@@ -120,7 +120,7 @@ fn queries(triangles: &[[DVec3; 3]]) -> Vec<Query> {
                 _ => random.direction().into(),
             };
             let limit = random.between(0.0, (high - low).length());
-            // What the GPU is given is what is asked here.
+            // The query is the one that the GPU is given.
             let narrow = |v: DVec3| v.as_vec3().as_dvec3();
             let size = (high - low).length() / direction.length();
             Query { origin: narrow(origin), direction: narrow(direction), limit: f64::from(limit as f32), size }
@@ -214,7 +214,7 @@ fn ask_obvhs(bvh: &Bvh2, triangles: &[Triangle], query: &Query) -> Option<(usize
     (hit.primitive_id != ray::INVALID_ID).then(|| (primitive(hit.primitive_id as usize), f64::from(hit.t)))
 }
 
-/// Asserts that an answer is right to within rounding: what is named is there, and nothing surely lies before it.
+/// Asserts that an answer is right to within rounding: the named triangle is there, and none surely lies before it.
 fn assert_right(query: &Query, answer: &Answer, triangles: &[[DVec3; 3]], what: &str) {
     let hits = all_hits(query, triangles);
     let sure = hits.iter().find(|h| h.margin() > EDGE).map_or(f64::INFINITY, |h| h.distance);
@@ -231,7 +231,7 @@ fn assert_right(query: &Query, answer: &Answer, triangles: &[[DVec3; 3]], what: 
     assert!(distance <= sure + query.tolerance(sure), "{what}: {distance} lies behind a hit at {sure}");
 }
 
-/// Compares the GPU's answers with obvhs'; where they differ, an intersection of every triangle in f64 decides.
+/// Compares the GPU's answers with obvhs'. Where they differ, an f64 intersection with every triangle decides.
 fn check(name: &str, scene: &Scene, pose: &Pose) {
     let gpu = gpu();
     let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, scene).unwrap();
@@ -270,7 +270,7 @@ fn compare(
             }
             _ => (false, false),
         };
-        // Of surfaces that coincide, as the bottom of a block and the floor, either will do.
+        // Either of two surfaces that coincide will do, such as the bottom of a block and the floor.
         disputed += usize::from(!same_distance);
         if !(same_distance && same_triangle) {
             assert_right(query, answer, world, &what);

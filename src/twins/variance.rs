@@ -1,5 +1,5 @@
-//! What the spatial filter starts from: colour, and the deviation of a mean; in short histories from 7×7 neighbours on the same
-//! surface.
+//! The spatial filter's input: the colour, and the deviation of a mean; short histories take it from 7×7 neighbours on the
+//! same surface.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
@@ -17,7 +17,7 @@ fn kept(texel: Texel) -> Kept {
     unpack_history([texel[0], texel[1]])
 }
 
-/// A pixel with a history `offset` away on a pixel's surface, and its weight.
+/// A pixel with a history, `offset` away on a pixel's surface, and its weight.
 fn neighbour(
     bench: &Bench,
     guide: &[[u32; 2]],
@@ -34,7 +34,7 @@ fn neighbour(
     Some((q, falloff(exponent)))
 }
 
-/// What fills a pixel without a history: the mean over neighbours of its surface, its deviation, and the greatest square of a
+/// Fills a pixel without a history: the mean over neighbours of its surface, its deviation, and the greatest square of a
 /// luminance.
 fn fill(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], colors: &[V], x: i32, y: i32) -> (V, f64, f64) {
     let (mut sum, mut square, mut weights, mut squares) = ([0.0; 3], 0.0, 0.0, 0.0);
@@ -59,12 +59,12 @@ fn fill(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], colors: &[V], x: i
     (mean, variance.sqrt(), squares)
 }
 
-/// The deviation that noise which never changes is taken to have, as triples of neighbours show it from the 3×3 around a pixel: of each
-/// of four directions the mean, if the fourth largest is at least a twentieth of it; of these the least. And the greatest square of a
-/// luminance.
+/// The deviation of noise that never changes, as triples of neighbours in the 3×3 around a pixel show it, and the greatest
+/// square of a luminance. Each of four directions gives its mean, at most twenty times its fourth largest triple; the least
+/// of the four counts.
 fn bends(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
     let mut squares = 0.0;
-    // Within the image.
+    // The triples stay within the image.
     let [mx, my] =
         [(x, bench.size[0]), (y, bench.size[1])].map(|(at, size)| at.max(2).min((size as i32 - 3).max(2)) - at);
     let means = [[1, 0], [0, 1], [1, 1], [1, -1]].map(|[sx, sy]: [i32; 2]| {
@@ -117,7 +117,7 @@ fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel]
         squares = f64::max(squares, second_moment);
         weights += w;
     }
-    // E[m₂] − E[m]², where the second moments are the neighbours' own; four frames' worth of trust.
+    // E[m₂] − E[m]², where the second moments are the neighbours' own, times 4/n.
     let spatial = (second / weights - (first / weights).powi(2)).max(0.0) * (4.0 / n).max(1.0);
     if !of_mean {
         return (spatial.sqrt(), squares);
@@ -138,7 +138,7 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
         &[VarianceOfMean, MissingSamples, RepeatedNoise],
         &[MissingSamples, RepeatedNoise, Feedback],
     ];
-    // With fireflies (10⁵) and without: beside one, nothing else counts.
+    // With fireflies (10⁵) and without: beside a firefly, nothing else counts.
     for ((features, size), brightest) in
         sets.into_iter().flat_map(|f| SIZES.map(|s| (f, s))).flat_map(|c| [(c, 1.0), (c, 1e9)])
     {
@@ -217,8 +217,8 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
                 assert_close(found, expected, expected * 2.0_f64.powi(-11) + 1e-9, || format!("{}: colour", what()));
             }
             let (expected, squares) = twin(&bench, step.features, &guide, &history, x, y);
-            // Stored to 2⁻¹², and not below 2⁻³⁰; a neighbour of weight e⁻⁸ may be cut or not, and what is left of squares is as exact
-            // as they are.
+            // Results are stored to 2⁻¹², and not below 2⁻³⁰. A neighbour of weight e⁻⁸ may be cut or not. A difference of
+            // squares is as exact as the squares.
             let error = (deviation.powi(2) - expected.powi(2)).abs();
             let allowed = 2e-3 * expected.powi(2) + 1e-3 * squares + 1e-18;
             assert!(error <= allowed, "{}: deviation {deviation}, not {expected} (squares up to {squares})", what());

@@ -1,7 +1,7 @@
 //! The path tracer's own frames as a sequence, as `denoise` reads it.
 
-use crate::sequence::camera::{Camera, Lens, Raster, dot};
 use crate::film::Film;
+use crate::sequence::camera::{Camera, Lens, Raster, dot};
 use crate::sequence::layers::Layer;
 use asvgf::image_io::{self, Channels};
 use asvgf::{Error, View};

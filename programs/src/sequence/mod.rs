@@ -1,8 +1,10 @@
 //! A sequence of frames as a renderer wrote it: its files, its layers, its cameras, and what `manifest.json` says of them.
 
+pub mod camera;
 pub mod camera_fit;
 mod cameras;
 mod described_camera;
+pub mod export;
 pub mod files;
 mod guides;
 pub mod layers;
@@ -11,8 +13,8 @@ pub mod motion;
 pub mod pixels;
 pub mod surfaces;
 
-use crate::sequence::camera::{Camera, Raster};
 use asvgf::image_io::{Channels, ExrFile, Window};
+use camera::{Camera, Raster};
 use files::FrameFile;
 use layers::{Layer, Meaning, Names, Place, Places};
 use pixels::Area;

@@ -54,7 +54,7 @@ pub enum Interpolation {
 
 impl Animation {
     /// Last key time of all channels in seconds, never below 0.
-    fn duration(&self) -> f32 {
+    pub(super) fn duration(&self) -> f32 {
         self.channels.iter().filter_map(|channel| channel.times.last()).fold(0.0, |last, &time| last.max(time))
     }
 }
@@ -71,7 +71,7 @@ impl Target {
 
 impl Channel {
     /// Value at `time`, held outside the keys. `None` where keys or values are missing.
-    fn sample(&self, time: f32) -> Option<DVec4> {
+    pub(super) fn sample(&self, time: f32) -> Option<DVec4> {
         let after = self.times.partition_point(|&key| key <= time);
         let Some(before) = after.checked_sub(1) else { return self.value(0) };
         let (Some(&from), Some(&to)) = (self.times.get(before), self.times.get(after)) else {

@@ -3,7 +3,7 @@
 use glam::{DMat4, DQuat, DVec3, Mat4};
 
 use super::animation::unit;
-use super::{Matrix, Scene, Target, Transform, WorldMatrix};
+use super::{Animation, Matrix, Scene, Target, Transform, WorldMatrix};
 
 /// The moving parts of a [`Scene`] at one moment.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -130,7 +130,7 @@ fn set<T>(items: &mut [T], index: usize, change: impl FnOnce(&mut T)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::description::{Node, Perspective};
+    use crate::scene::description::{Channel, Interpolation, Node, Perspective};
 
     const FAR: f64 = 524_288.0;
 

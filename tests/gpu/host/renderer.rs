@@ -7,9 +7,9 @@ use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 #[allow(dead_code, reason = "shared with the example, which uses the rest")]
 #[path = "../../../examples/host_raster/renderer.rs"]
-mod renderer;
+mod example;
 
-use renderer::{Moment, Renderer};
+use example::{Moment, Renderer};
 
 const SIZE: [u32; 2] = [64, 36];
 
