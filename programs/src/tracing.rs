@@ -4,11 +4,14 @@ use crate::film::Film;
 use crate::gpu::Gpu;
 use crate::times::PassTimes;
 use asvgf::scene::GpuScene;
-use asvgf::{Camera, Error, Frame, Mode, Settings};
+use asvgf::{Camera, Error, Frame, Mode, Settings, TracerSettings};
 
 /// Most paths per pixel in one dispatch of a reference: enough to hide what a dispatch costs, and far from the seconds
 /// after which systems take a GPU for hung.
 const BATCH: u32 = 16;
+
+/// What changes a seed so that references share no random number with the frames that they judge.
+const OTHER_PATHS: u32 = 0x5eed_0000;
 
 /// Renders a frame and waits for it.
 pub fn render(film: &mut Film<'_>, scene: &GpuScene, camera: Camera, index: u32) -> Result<PassTimes, Error> {
@@ -29,7 +32,7 @@ impl<'a> Reference<'a> {
     /// With paths that share no random number with those that these settings trace.
     pub fn new(gpu: &'a Gpu, size: [u32; 2], settings: &Settings) -> Result<Self, Error> {
         let mut settings = Settings { mode: Mode::Reference, ..settings.clone() };
-        settings.tracer.seed ^= 0x5eed_0000;
+        settings.tracer.seed ^= OTHER_PATHS;
         Ok(Self { film: Film::new(gpu, size, settings)?, batches: 0 })
     }
 
@@ -46,8 +49,7 @@ impl<'a> Reference<'a> {
         paths: u32,
         mut done: impl FnMut(u32),
     ) -> Result<Vec<[f32; 3]>, Error> {
-        // All batches count alike in the mean, so all are of one size.
-        let batch = (1..=BATCH).rev().find(|batch| paths.is_multiple_of(*batch)).unwrap_or(1);
+        let batch = batch(paths);
         let mut settings = self.film.denoiser.settings().clone();
         settings.tracer.samples = batch;
         self.film.denoiser.set_settings(settings)?;
@@ -59,4 +61,30 @@ impl<'a> Reference<'a> {
         }
         Ok(self.film.gpu.read_colors(&self.film.target))
     }
+}
+
+/// Traces `paths` per pixel of one moment and denoises them, calling back after each batch with its paths. Nothing changes from batch to
+/// batch, so that histories are plain means, and the filter removes only the noise that is left in them.
+pub fn converge_denoised(
+    gpu: &Gpu,
+    size: [u32; 2],
+    settings: &Settings,
+    scene: &GpuScene,
+    camera: Camera,
+    paths: u32,
+    mut done: impl FnMut(u32),
+) -> Result<Vec<[f32; 3]>, Error> {
+    let samples = batch(paths);
+    let tracer = TracerSettings { samples, seed: settings.tracer.seed ^ OTHER_PATHS, ..settings.tracer.clone() };
+    let mut film = Film::new(gpu, size, Settings { tracer, ..Settings::adaptive() })?;
+    for index in 0..paths / samples {
+        render(&mut film, scene, camera, index)?;
+        done(samples);
+    }
+    Ok(gpu.read_colors(&film.target))
+}
+
+/// The largest batch that divides `paths`: all batches count alike in the mean, so all are of one size.
+fn batch(paths: u32) -> u32 {
+    (1..=BATCH).rev().find(|batch| paths.is_multiple_of(*batch)).unwrap_or(1)
 }

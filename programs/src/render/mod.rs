@@ -42,9 +42,7 @@ fn render(options: &Options) -> Result<(), Box<dyn Error>> {
     let mut film = Film::new(&gpu, options.size, options.settings.clone())?;
     // The other kind of α, with the same noise.
     let mut other = options.compare.map(|_| Film::new(&gpu, options.size, other(&options.settings))).transpose()?;
-    let mut reference = (options.compare.or(options.reference))
-        .map(|_| Reference::new(&gpu, options.size, &options.settings))
-        .transpose()?;
+    let mut reference = options.reference.map(|_| Reference::new(&gpu, options.size, &options.settings)).transpose()?;
 
     let bar = progress(options);
     let mut timed = Vec::new();
@@ -75,13 +73,15 @@ fn render(options: &Options) -> Result<(), Box<dyn Error>> {
             tracing::render(other, &scene, camera, frame)?;
             bar.inc(options.settings.tracer.samples.into());
         }
-        let paths = if frame == last { options.compare.max(options.reference) } else { options.reference };
-        if let (Some(reference), Some(paths)) = (&mut reference, paths) {
+        let traced = |paths: u32| bar.inc(paths.into());
+        if let (Some(reference), Some(paths)) = (&mut reference, options.reference) {
             bar.set_message(format!("reference of frame {frame}"));
-            truth = reference.converge(&scene, camera, paths, |paths| bar.inc(paths.into()))?;
-            if options.reference.is_some() {
-                write_reference(options, &truth, frame)?;
-            }
+            truth = reference.converge(&scene, camera, paths, traced)?;
+            write_reference(options, &truth, frame)?;
+        }
+        if let Some(paths) = options.denoised_reference().filter(|_| frame == last) {
+            bar.set_message(format!("reference of frame {frame}"));
+            truth = tracing::converge_denoised(&gpu, options.size, &options.settings, &scene, camera, paths, traced)?;
         }
     }
     if let Some(other) = &mut other {
@@ -96,8 +96,11 @@ fn render(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     let rays = film.numbers(View::Rays)?.iter().map(|pixel| f64::from(pixel[0])).sum();
     say(&times::table(&timed, Some(rays), options.size, &gpu));
-    let pictures = if options.compare.is_some() { ", and comparison.png" } else { "" };
-    say(&format!("{} frames in {}{pictures}\n", options.frames, options.out.display()));
+    say(&format!("{} frames in {}\n", options.frames, options.out.display()));
+    if options.compare.is_some() {
+        let file = options.out.join("comparison.png");
+        say(&format!("The last frame, compared, in {}; {}\n", file.display(), reference_in_words(options)));
+    }
     Ok(())
 }
 
@@ -105,9 +108,9 @@ fn render(options: &Options) -> Result<(), Box<dyn Error>> {
 fn progress(options: &Options) -> ProgressBar {
     let [frames, paths] = [options.frames, options.settings.tracer.samples].map(u64::from);
     let films = if options.compare.is_some() { 2 } else { 1 };
-    let reference = u64::from(options.reference.unwrap_or(0));
-    let last = u64::from(options.compare.unwrap_or(0)).max(reference);
-    let bar = ProgressBar::new(frames * films * paths + (frames - 1) * reference + last);
+    let [reference, last] =
+        [options.reference, options.denoised_reference()].map(|paths| u64::from(paths.unwrap_or(0)));
+    let bar = ProgressBar::new(frames * (films * paths + reference) + last);
     let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {elapsed} gone, {eta} to go");
     bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
@@ -194,7 +197,6 @@ fn write_comparison<'a>(
 ) -> Result<(), Box<dyn Error>> {
     let (adaptive, constant) = if is_constant(&options.settings) { (other, film) } else { (film, other) };
     let samples = options.settings.tracer.samples;
-    let paths = options.compare.max(options.reference).unwrap_or(0);
     let exposure = options.exposure.unwrap_or_else(|| comparison::exposure(&truth));
     let alpha = constant.denoiser.settings().filter.alpha;
     let tiles = [
@@ -202,8 +204,16 @@ fn write_comparison<'a>(
         Tile { label: format!("noisy, {samples} spp"), colors: constant.numbers(View::Noisy)? },
         Tile { label: format!("constant alpha {alpha}"), colors: constant.numbers(View::Denoised)? },
         Tile { label: "adaptive alpha".into(), colors: adaptive.numbers(View::Denoised)? },
-        Tile { label: format!("reference, {paths} spp"), colors: truth },
+        Tile { label: reference_in_words(options), colors: truth },
     ];
     comparison::write(&options.out.join("comparison.png"), options.size, &tiles, exposure)?;
     Ok(())
+}
+
+/// The reference of a comparison: its paths per pixel, and whether it is denoised.
+fn reference_in_words(options: &Options) -> String {
+    match options.denoised_reference() {
+        Some(paths) => format!("reference, {paths} spp, denoised"),
+        None => format!("reference, {} spp", options.reference.unwrap_or(0)),
+    }
 }

@@ -74,9 +74,11 @@ Output
                         `denoise` reads: frame_0000.exr … and manifest.json
   --reference SPP       also trace each frame with so many paths per pixel, unfiltered
   --compare[=SPP]       end with comparison.png: noisy, constant alpha, adaptive alpha
-                        and reference (of so many paths, 64 if not said, or as many as
-                        --reference if that is more) of the last frame; brightened
-                        where it is dark, unless --exposure is given
+                        and reference of the last frame; brightened where it is dark,
+                        unless --exposure is given. The reference has SPP paths per
+                        pixel [64] and is denoised: 64 paths alone are noisier than the
+                        results. With at least as many for --reference it is that one,
+                        unfiltered
   --explain             print what was compiled in, which passes ran, on which images
 
   -h, --help            print this
@@ -163,6 +165,14 @@ impl Default for Options {
             cull: false,
             list: false,
         }
+    }
+}
+
+impl Options {
+    /// Paths per pixel of a reference for the comparison alone, which is denoised. `None` if there is no comparison, or if an unfiltered
+    /// reference of at least as many paths is traced anyway.
+    pub fn denoised_reference(&self) -> Option<u32> {
+        self.compare.filter(|&paths| self.reference.is_none_or(|traced| traced < paths))
     }
 }
 
