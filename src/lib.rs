@@ -79,6 +79,7 @@ mod gpu;
 mod host;
 #[cfg(feature = "image")]
 pub mod image_io;
+mod listed;
 #[cfg(feature = "metrics")]
 pub mod metrics;
 mod passes;
@@ -101,7 +102,12 @@ pub use gpu::timing::FrameTimes;
 pub use host::{Lambda, Pairs, Reshade, Shading, Surfaces};
 pub use passes::Pass;
 pub use plan::Changes;
-pub use settings::*;
+pub use settings::{
+    Blend, Choice, Compiles, Field, FilterSettings, Gradient, Kernel, Mode, Setting, SettingKind, Settings, Stops,
+    Variance,
+};
+#[cfg(feature = "path-tracer")]
+pub use settings::{Sampling, TracerSettings};
 pub use view::{View, ViewOptions};
 
 /// WGSL for a host's own shader, for [`Gradient::Reshade`]: `asvgf_surface(frame, guide, repeats, shifts, pixel)` returns an

@@ -1,116 +1,69 @@
 //! The intermediate images that can be shown.
 
-/// An intermediate image of the last frame, for [`Denoiser::show`](crate::Denoiser::show).
-///
-/// In an `rgba32float` or `rgba16float` target each shows its numbers, as listed, with alpha 1; in an `rgba8unorm` one a
-/// picture (sRGB-encoded).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum View {
-    /// The filtered image: linear radiance. Picture: tone-mapped.
-    Denoised,
-    /// The samples as traced: linear radiance. Picture: tone-mapped.
-    Noisy,
-    /// The albedo that radiance was divided by before filtering, 10⁻³…1. Where nothing was hit it is 0 in a traced frame, 1 in a host's.
-    Albedo,
-    /// World-space normal, −1…1; 0 where nothing was hit.
-    Normal,
-    /// Linear depth; 0 where nothing was hit. Picture: brighter is farther, grey at [`ViewOptions::range`].
-    Depth,
-    /// Number of the triangle: low 16 bits in red, high 16 in green; blue is 0 where nothing was hit. Picture: one colour each.
-    TriangleId,
-    /// Previous − current position in pixels in red and green, in steps of 1/256 (−10⁶ if the point was nowhere), the point's previous depth in
-    /// blue. Picture: grey is no motion.
-    Motion,
-    /// λ of each stratum before interpolation, 0…1.
-    Gradient,
-    /// λ of each pixel, 0…1, a host's own too; 0 where there was no history to shorten. Needs
-    /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
-    Lambda,
-    /// Weight of the new sample, 0…1, as it was blended: 1 where there was no history, λ where the sample repeats a path, 0 where there
-    /// is none. Needs [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
-    Alpha,
-    /// History length in frames. Lengths beyond 32 are rounded at random, and right on average. Picture: white at [`ViewOptions::range`].
-    HistoryLength,
-    /// Variance of a sample's demodulated luminance. Picture: logarithmic in its root.
-    Variance,
-    /// 1 where the filtered image is not finite.
-    NonFinite,
-    /// Rays that the pixel cost in this frame, shadow rays and the primary one included; exact to 2048. Picture: white at
-    /// [`ViewOptions::range`].
-    Rays,
-    /// The host's motion less the motion that depth and both cameras imply for a point at rest: pixels in red and green, the
-    /// difference of the previous depths in blue. It is within 1/512 pixel of zero except on objects that move. If the whole image changes with the camera, a
-    /// sign, a unit or a matrix is wrong. Picture: grey is none.
-    MotionError,
-    /// Linear radiance that the visible surface or the sky emits towards the eye. Picture: tone-mapped.
-    Emission,
-    /// Number of the object that was hit, or of nothing: low 16 bits in red, high 16 in green. Picture: one colour each.
-    Object,
-    /// Radiance that the gradient's paths reflect now, times the albedo, in the pixels where these paths are; −1 elsewhere. Picture: tone-mapped.
-    PairNow,
-    /// Radiance that the same paths reflected in the last frame, likewise.
-    PairBefore,
-    /// Mean of the frames so far, in [`Mode::Reference`](crate::Mode::Reference): linear radiance. Picture: tone-mapped.
-    Mean,
-    /// 1 where the pixel's sample is far brighter than its surroundings and is not believed, or not wholly, see
-    /// [`FilterSettings::outlier_limit`](crate::FilterSettings::outlier_limit); 0 elsewhere. Needs
-    /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
-    Outliers,
+use crate::listed::listed;
+
+listed! {
+    /// An intermediate image of the last frame, for [`Denoiser::show`](crate::Denoiser::show).
+    ///
+    /// In an `rgba32float` or `rgba16float` target each shows its numbers, as listed, with alpha 1; in an `rgba8unorm` one a
+    /// picture (sRGB-encoded).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+    #[non_exhaustive]
+    pub enum View {
+        /// The filtered image: linear radiance. Picture: tone-mapped.
+        Denoised = "denoised",
+        /// The samples as traced: linear radiance. Picture: tone-mapped.
+        Noisy = "noisy",
+        /// The albedo that radiance was divided by before filtering, 10⁻³…1. Where nothing was hit it is 0 in a traced frame, 1 in a host's.
+        Albedo = "albedo",
+        /// World-space normal, −1…1; 0 where nothing was hit.
+        Normal = "normal",
+        /// Linear depth; 0 where nothing was hit. Picture: brighter is farther, grey at [`ViewOptions::range`].
+        Depth = "depth",
+        /// Number of the triangle: low 16 bits in red, high 16 in green; blue is 0 where nothing was hit. Picture: one colour each.
+        TriangleId = "triangle-id",
+        /// Previous − current position in pixels in red and green, in steps of 1/256 (−10⁶ if the point was nowhere), the point's previous depth in
+        /// blue. Picture: grey is no motion.
+        Motion = "motion",
+        /// λ of each stratum before interpolation, 0…1.
+        Gradient = "gradient",
+        /// λ of each pixel, 0…1, a host's own too; 0 where there was no history to shorten. Needs
+        /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+        Lambda = "lambda",
+        /// Weight of the new sample, 0…1, as it was blended: 1 where there was no history, λ where the sample repeats a path, 0 where there
+        /// is none. Needs [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+        Alpha = "alpha",
+        /// History length in frames. Lengths beyond 32 are rounded at random, and right on average. Picture: white at [`ViewOptions::range`].
+        HistoryLength = "history-length",
+        /// Variance of a sample's demodulated luminance. Picture: logarithmic in its root.
+        Variance = "variance",
+        /// 1 where the filtered image is not finite.
+        NonFinite = "non-finite",
+        /// Rays that the pixel cost in this frame, shadow rays and the primary one included; exact to 2048. Picture: white at
+        /// [`ViewOptions::range`].
+        Rays = "rays",
+        /// The host's motion less the motion that depth and both cameras imply for a point at rest: pixels in red and green, the
+        /// difference of the previous depths in blue. It is within 1/512 pixel of zero except on objects that move. If the whole image changes with the camera, a
+        /// sign, a unit or a matrix is wrong. Picture: grey is none.
+        MotionError = "motion-error",
+        /// Linear radiance that the visible surface or the sky emits towards the eye. Picture: tone-mapped.
+        Emission = "emission",
+        /// Number of the object that was hit, or of nothing: low 16 bits in red, high 16 in green. Picture: one colour each.
+        Object = "object",
+        /// Radiance that the gradient's paths reflect now, times the albedo, in the pixels where these paths are; −1 elsewhere. Picture: tone-mapped.
+        PairNow = "pair-now",
+        /// Radiance that the same paths reflected in the last frame, likewise.
+        PairBefore = "pair-before",
+        /// Mean of the frames so far, in [`Mode::Reference`](crate::Mode::Reference): linear radiance. Picture: tone-mapped.
+        Mean = "mean",
+        /// 1 where the pixel's sample is far brighter than its surroundings and is not believed, or not wholly, see
+        /// [`FilterSettings::outlier_limit`](crate::FilterSettings::outlier_limit); 0 elsewhere. Needs
+        /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+        Outliers = "outliers",
+    }
 }
 
 impl View {
-    /// Every view, in order.
-    pub const ALL: [Self; 21] = [
-        Self::Denoised,
-        Self::Noisy,
-        Self::Albedo,
-        Self::Normal,
-        Self::Depth,
-        Self::TriangleId,
-        Self::Motion,
-        Self::Gradient,
-        Self::Lambda,
-        Self::Alpha,
-        Self::HistoryLength,
-        Self::Variance,
-        Self::NonFinite,
-        Self::Rays,
-        Self::MotionError,
-        Self::Emission,
-        Self::Object,
-        Self::PairNow,
-        Self::PairBefore,
-        Self::Mean,
-        Self::Outliers,
-    ];
-
-    /// The name in lower case with hyphens: `history-length`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Denoised => "denoised",
-            Self::Noisy => "noisy",
-            Self::Albedo => "albedo",
-            Self::Normal => "normal",
-            Self::Depth => "depth",
-            Self::TriangleId => "triangle-id",
-            Self::Motion => "motion",
-            Self::Gradient => "gradient",
-            Self::Lambda => "lambda",
-            Self::Alpha => "alpha",
-            Self::HistoryLength => "history-length",
-            Self::Variance => "variance",
-            Self::NonFinite => "non-finite",
-            Self::Rays => "rays",
-            Self::MotionError => "motion-error",
-            Self::Emission => "emission",
-            Self::Object => "object",
-            Self::PairNow => "pair-now",
-            Self::PairBefore => "pair-before",
-            Self::Mean => "mean",
-            Self::Outliers => "outliers",
-        }
-    }
-
     /// A [`ViewOptions::range`] that suits most pictures of this view.
     pub fn default_range(self) -> f32 {
         match self {

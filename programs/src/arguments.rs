@@ -1,5 +1,6 @@
 //! What command lines have in common: values as text, and what is wrong with them.
 
+use asvgf::{Setting, SettingKind, Settings};
 use std::fmt;
 use std::ops::RangeInclusive;
 
@@ -47,6 +48,18 @@ impl Value {
     pub fn number(&self, range: RangeInclusive<f32>) -> Result<f32, Usage> {
         let value = self.text.parse().ok().filter(|value| range.contains(value));
         value.ok_or_else(|| self.wrong(format!("must be a number from {} to {}", range.start(), range.end())))
+    }
+
+    /// Gives a setting of the denoiser this value, a number in its own range.
+    pub fn set(&self, setting: &str, settings: &mut Settings) -> Result<(), Usage> {
+        match Setting::named(setting).map(|setting| &setting.kind) {
+            Some(SettingKind::Number { range, field, .. }) => {
+                *(field.get_mut)(settings) = self.number(range.clone())?
+            }
+            Some(SettingKind::Whole { range, field, .. }) => *(field.get_mut)(settings) = self.whole(range.clone())?,
+            _ => return Err(self.wrong(format!("the denoiser has no number {setting}"))),
+        }
+        Ok(())
     }
 
     /// The constant, or `None` where α is to be adaptive.

@@ -12,7 +12,7 @@ use crate::gpu::timing::{FrameQueries, Timing};
 use crate::passes::SceneBinding;
 use crate::passes::{HostView, Pass, Slot, Step, Traversal};
 use crate::plan::Plan;
-use crate::settings::Settings;
+use crate::settings::{MOST_ITERATIONS, Settings};
 use std::num::NonZeroU64;
 use wgpu::{
     BindingResource, Buffer, BufferBinding, BufferUsages, CommandEncoder, ComputePassDescriptor,
@@ -21,9 +21,6 @@ use wgpu::{
 
 /// Spacing of the strides of the à-trous iterations in their buffer: the default `min_uniform_buffer_offset_alignment`.
 const STRIDE_SPACING: u64 = 256;
-
-/// Iterations that a filter may have, so that 2ⁱ has a place in the buffer of strides.
-const MOST_ITERATIONS: u64 = 9;
 
 /// The pipelines, textures and measuring instruments of one denoiser.
 #[derive(Debug)]
@@ -81,7 +78,7 @@ impl Recorder {
         timing: Option<Timing>,
         counters: Option<Counters>,
     ) -> Self {
-        let mut strides = vec![0_u8; (MOST_ITERATIONS * STRIDE_SPACING) as usize];
+        let mut strides = vec![0_u8; MOST_ITERATIONS as usize * STRIDE_SPACING as usize];
         for (i, place) in strides.chunks_exact_mut(STRIDE_SPACING as usize).enumerate() {
             place[..4].copy_from_slice(&(1_i32 << i).to_le_bytes());
         }

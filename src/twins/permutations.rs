@@ -213,7 +213,7 @@ pub(super) fn steps() -> BTreeMap<Permutation, Step> {
         steps.entry(Permutation::of(&step, traversal)).or_insert(step);
     };
     for plan in plans().into_iter().chain(host_plans()) {
-        for (view, format) in product(&View::ALL, &formats) {
+        for (view, format) in product(View::ALL, &formats) {
             match plan.show(view, format, |_| true) {
                 Ok(step) => add(step),
                 Err(Error::NoView { .. }) => {}

@@ -3,12 +3,11 @@
 use crate::action::Action;
 use crate::documentation;
 use crate::scenes::Stage;
-use crate::settings::{self, Kind, Setting};
 use crate::state::{Source, State};
 use crate::{plan, shortcuts, views};
 use asvgf::plan::Plan;
 use asvgf::scene::builtin;
-use asvgf::{Settings, ViewOptions};
+use asvgf::{FilterSettings, Gradient, Setting, SettingKind, Settings, TracerSettings, ViewOptions};
 use eframe::egui::{Button, ComboBox, ScrollArea, Slider, TextEdit, Ui};
 use std::path::PathBuf;
 
@@ -219,37 +218,41 @@ fn all_settings(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
             actions.push(Action::Restore);
         }
     });
-    for (title, list) in [("filter", settings::FILTER), ("path tracer", settings::TRACER)] {
+    for (title, fields) in [("filter", FilterSettings::FIELDS), ("path tracer", TracerSettings::FIELDS)] {
         ui.label(title);
-        for one in list {
-            setting(ui, &mut state.settings, one);
+        for field in fields {
+            setting(ui, &mut state.settings, field);
         }
     }
 }
 
+/// Choices that a host's renderer alone has, and there is none here.
+const OF_HOSTS: [&str; 2] = [Gradient::Pairs.name(), Gradient::Lambda.name()];
+
 fn setting(ui: &mut Ui, settings: &mut Settings, setting: &Setting) {
-    let label = setting.name.replace('_', " ");
+    let label = setting.field_name().replace('_', " ");
     let response = match &setting.kind {
-        Kind::Number { range, logarithmic, field } => {
-            ui.add(Slider::new(field(settings), range.clone()).logarithmic(*logarithmic).text(label))
+        SettingKind::Number { useful, logarithmic, field, .. } => {
+            ui.add(Slider::new((field.get_mut)(settings), useful.clone()).logarithmic(*logarithmic).text(label))
         }
-        Kind::Whole { range, field } => ui.add(Slider::new(field(settings), range.clone()).text(label)),
-        Kind::Switch { field } => ui.checkbox(field(settings), label),
-        Kind::OneOf { names, get, set } => {
+        SettingKind::Whole { useful, field, .. } => {
+            ui.add(Slider::new((field.get_mut)(settings), useful.clone()).text(label))
+        }
+        SettingKind::Switch { field } => ui.checkbox((field.get_mut)(settings), label),
+        SettingKind::Choice { choices, get, set } => {
             let mut chosen = get(settings);
-            let list = ComboBox::from_label(label).selected_text(names[chosen]);
+            let list = ComboBox::from_label(label).selected_text(chosen);
             let response = list.show_ui(ui, |ui| {
-                for (i, name) in names.iter().enumerate() {
-                    ui.selectable_value(&mut chosen, i, *name);
+                let of_hosts = |name| setting.name == "filter.gradient" && OF_HOSTS.contains(&name);
+                for choice in choices().into_iter().filter(|choice| !of_hosts(choice.name)) {
+                    ui.selectable_value(&mut chosen, choice.name, choice.name)
+                        .on_hover_text(documentation::of_choice(choice));
                 }
             });
-            if chosen != get(settings) {
-                set(settings, chosen);
-            }
+            set(settings, chosen);
             response.response
         }
+        _ => return,
     };
-    if let Some(text) = documentation::of_setting(setting.name) {
-        response.on_hover_text(text);
-    }
+    response.on_hover_text(documentation::of_setting(setting));
 }

@@ -1,35 +1,37 @@
 //! The library's own documentation as hover text, so that it is written once.
 
-const SETTINGS: &str = include_str!("../../../src/settings.rs");
-const VIEWS: &str = include_str!("../../../src/view.rs");
+use asvgf::{Choice, Compiles, Setting, SettingKind, View};
 
 /// Signs that egui's fonts lack, and what is written instead.
 const ABSENT: [(&str, &str); 8] =
     [("←", ":="), ("∇", "grad "), ("⁻³", "^-3"), ("ᵏ", "^k"), ("ⁿ", "^n"), ("₁", "1"), ("₂", "2"), ("₃", "3")];
 
-/// What a field of the settings is, and what a higher and a lower value cost.
-pub fn of_setting(field: &str) -> Option<String> {
-    above(SETTINGS, &format!("    pub {field}:"))
+/// What a setting is, what a higher and a lower value cost, and what it takes.
+pub fn of_setting(setting: &Setting) -> String {
+    let mut text = plain(setting.documentation);
+    if let SettingKind::Number { accepted, .. } | SettingKind::Whole { accepted, .. } = &setting.kind {
+        text += &format!(" Takes {accepted}.");
+    }
+    if setting.compiles == Compiles::Always {
+        text += " Changing it compiles.";
+    }
+    text
 }
 
-/// What an image shows, by the name of its variant.
-pub fn of_view(variant: &str) -> Option<String> {
-    above(VIEWS, &format!("    {variant} ="))
+/// What is chosen.
+pub fn of_choice(choice: Choice) -> String {
+    plain(choice.documentation)
 }
 
-/// The doc comment above the first line that starts so, as plain text.
-fn above(source: &str, start: &str) -> Option<String> {
-    let lines: Vec<&str> = source.lines().collect();
-    let at = lines.iter().position(|line| line.starts_with(start))?;
-    let text: Vec<&str> = lines[..at].iter().rev().map_while(|line| line.trim().strip_prefix("///")).collect();
-    let text: String = text.into_iter().rev().collect();
-    (!text.is_empty()).then(|| plain(text.trim()))
+/// What an image shows.
+pub fn of_view(view: View) -> String {
+    plain(view.documentation())
 }
 
-/// Without the marks of rustdoc: links keep their text, code its words.
+/// Without the marks of rustdoc: links keep their text, code its words, paragraphs are one.
 fn plain(text: &str) -> String {
     let mut out = String::new();
-    let mut rest = text.replace(['`', '\\'], "");
+    let mut rest = text.split_whitespace().collect::<Vec<_>>().join(" ").replace(['`', '\\'], "");
     for (sign, letters) in ABSENT {
         rest = rest.replace(sign, letters);
     }
@@ -47,30 +49,55 @@ fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asvgf::View;
+    use asvgf::plan::{Changes, HostTraits, Plan, Traits};
+    use asvgf::{FilterSettings, Gradient, Settings, wgpu};
 
     #[test]
     fn links_keep_their_text() {
         assert_eq!(plain("as [`Denoiser::show`](crate::Denoiser::show) says, `α`"), "as Denoiser::show says, α");
         assert_eq!(plain("with [`Gradient::Off`] and A\\[x\\]"), "with Gradient::Off and Ax");
+        assert_eq!(plain(" one\n two\n"), "one two");
+    }
+
+    /// Every text that the window takes from the library.
+    fn texts() -> Vec<String> {
+        let mut texts: Vec<String> = View::ALL.iter().map(|&view| of_view(view)).collect();
+        for setting in Setting::all() {
+            texts.push(of_setting(setting));
+            if let SettingKind::Choice { choices, .. } = &setting.kind {
+                texts.extend(choices().into_iter().map(of_choice));
+            }
+        }
+        texts
+    }
+
+    /// The reasons of many plans, which the window shows as they are.
+    fn reasons() -> Vec<&'static str> {
+        let target = wgpu::TextureFormat::Rgba16Float;
+        let gradients = Gradient::ALL.iter().map(|&gradient| FilterSettings { gradient, ..Default::default() });
+        let plain = FilterSettings { iterations: 0, outlier_limit: 0.0, ..Default::default() };
+        let mut reasons = Vec::new();
+        for filter in gradients.chain([FilterSettings::classic(), plain]) {
+            let settings = Settings { filter, ..Settings::adaptive() };
+            for changes in [Changes::ANY, Changes::NONE] {
+                for traits in [Traits::default(), Traits::default().everything()] {
+                    reasons.extend(Plan::path_traced(&traits, &settings, changes, target).decisions);
+                }
+                reasons.extend(Plan::hosted(&HostTraits::default(), &settings, changes, target).decisions);
+            }
+        }
+        reasons.into_iter().map(|decision| decision.reason).collect()
     }
 
     #[test]
     fn egui_can_write_all_of_it() {
         use eframe::egui::{Context, FontId};
         let context = Context::default();
-        // A plan's reasons are shown as they are.
-        let reasons = include_str!("../../../src/plan/choice.rs");
-        let texts = [SETTINGS, VIEWS].map(|source| {
-            let comments = source.lines().filter_map(|line| line.trim().strip_prefix("///"));
-            plain(&comments.collect::<String>())
-        });
+        let (texts, reasons) = (texts(), reasons());
         let mut output = context.run_ui(Default::default(), |ui| {
             ui.fonts_mut(|fonts| {
-                let shown = reasons.chars().filter(|c| !c.is_control());
-                let strange = |c: &char| !fonts.has_glyph(&FontId::default(), *c);
-                let strange: Vec<char> =
-                    texts.iter().flat_map(|text| text.chars()).chain(shown).filter(strange).collect();
+                let shown = texts.iter().map(String::as_str).chain(reasons.iter().copied()).flat_map(str::chars);
+                let strange: Vec<char> = shown.filter(|c| !fonts.has_glyph(&FontId::default(), *c)).collect();
                 assert!(strange.is_empty(), "{strange:?}");
             });
         });
@@ -79,9 +106,13 @@ mod tests {
     }
 
     #[test]
-    fn every_view_is_documented() {
-        for view in View::ALL {
-            assert!(of_view(&format!("{view:?}")).is_some_and(|text| text.len() > 10), "{view:?}");
+    fn everything_is_documented() {
+        for setting in Setting::all() {
+            assert!(setting.documentation.len() > 10, "{}", setting.name);
         }
+        for view in View::ALL {
+            assert!(view.documentation().len() > 10, "{view:?}");
+        }
+        assert!(texts().iter().all(|text| !text.is_empty()));
     }
 }

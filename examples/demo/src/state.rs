@@ -139,7 +139,7 @@ impl Default for State {
 impl State {
     /// The view that is shown; the picture, where a saved file names one that there is not.
     pub fn view(&self) -> View {
-        View::ALL.into_iter().find(|view| view.name() == self.view).unwrap_or(View::Denoised)
+        View::named(&self.view).unwrap_or(View::Denoised)
     }
 
     /// What goes to the left or right half is adaptive where it was constant, and the other way round.

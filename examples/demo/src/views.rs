@@ -13,20 +13,15 @@ pub fn title(view: View) -> String {
 /// A list to choose from, each with the library's own words on it.
 pub fn choose(ui: &mut Ui, chosen: &mut String) {
     ComboBox::from_label("view").selected_text(chosen.replace('-', " ")).height(500.0).show_ui(ui, |ui| {
-        for view in View::ALL {
-            let response = ui.selectable_value(chosen, view.name().into(), title(view));
-            if let Some(text) = documentation::of_view(&format!("{view:?}")) {
-                response.on_hover_text(text);
-            }
+        for &view in View::ALL {
+            ui.selectable_value(chosen, view.name().into(), title(view)).on_hover_text(documentation::of_view(view));
         }
     });
 }
 
 /// What is shown, in words and, where one colour is one number, on a scale.
 pub fn legend(ui: &mut Ui, view: View, options: ViewOptions) {
-    if let Some(text) = documentation::of_view(&format!("{view:?}")) {
-        ui.label(text);
-    }
+    ui.label(documentation::of_view(view));
     let Some(most) = white_at(view, options) else { return };
     ui.horizontal(|ui| {
         ui.label("0");

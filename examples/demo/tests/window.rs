@@ -120,7 +120,7 @@ fn every_source_and_view_can_be_looked_at() {
         let picture = window.picture(source);
         assert!(picture.texels.iter().any(|t| t[0] > 30), "{source:?}");
     }
-    for view in View::ALL {
+    for &view in View::ALL {
         window.state(|state| {
             state.left = Source::Adaptive;
             state.view = view.name().into();

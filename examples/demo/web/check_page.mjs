@@ -85,8 +85,8 @@ export async function checkPage(tab, site, target) {
     assert(mean(await radiance()) > 0.01, `${left} is rendered`);
   }
   for (const scene of ["cornell", "pillars"]) {
-    for (const settings of [{}, { blend: "Lambda", stops: "Classic", kernel: "Full", feedback: true, variance: "OfSample" }]) {
-      for (const gradient of ["Reshade", "BlinnPhong"]) {
+    for (const settings of [{}, { blend: "lambda", stops: "classic", kernel: "full", feedback: true, variance: "of-sample" }]) {
+      for (const gradient of ["reshade", "blinn-phong"]) {
         await render(2, { ...lit, scene, split: true, plots: true, settings: { ...settings, gradient } });
       }
     }

@@ -4,7 +4,7 @@ use crate::arguments::{Format, Usage, Value};
 use crate::sequence::Source;
 use crate::sequence::layers::{Layer, Mapping, Meaning};
 use asvgf::image_io::{Compression, SampleType};
-use asvgf::{FilterSettings, View};
+use asvgf::{FilterSettings, Settings, View};
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -171,8 +171,8 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         compression: None,
         exposure: 1.0,
     };
-    let mut iterations = None;
-    let mut outlier_limit = None;
+    // Settings by name, and what they are to be, whatever the preset.
+    let mut changes = Vec::new();
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
         let name = match argument {
@@ -206,8 +206,8 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
                 options.preset = if classic { FilterSettings::classic() } else { FilterSettings::default() };
             }
             "alpha" => options.constant = value()?.alpha()?,
-            "iterations" => iterations = Some(value()?.whole(0..=8)?),
-            "outlier-limit" => outlier_limit = Some(value()?.number(0.0..=1e6)?),
+            "iterations" => changes.push(("filter.iterations", value()?)),
+            "outlier-limit" => changes.push(("filter.outlier_limit", value()?)),
             "outputs" => {
                 let known = OUTPUTS.map(|output| (output.0, output));
                 options.outputs = value()?.list(|v| v.one_of(&known))?;
@@ -222,8 +222,11 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
             _ => return Err(lexopt::Arg::Long(&name).unexpected().into()),
         }
     }
-    options.preset.iterations = iterations.unwrap_or(options.preset.iterations);
-    options.preset.outlier_limit = outlier_limit.unwrap_or(options.preset.outlier_limit);
+    let mut settings = Settings { filter: options.preset, ..Settings::adaptive() };
+    for (setting, value) in changes {
+        value.set(setting, &mut settings)?;
+    }
+    options.preset = settings.filter;
     options.source.input = input.ok_or_else(|| Usage("IN is missing: the folder with the frames".into()))?;
     options.out = out.ok_or_else(|| Usage("--out OUT_DIR is missing: the folder to write to".into()))?;
     Ok(Request::Denoise(Box::new(options)))

@@ -217,7 +217,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
             _ if !VALUED.contains(&name.as_str()) => return Err(lexopt::Arg::Long(&name).unexpected().into()),
             _ => {
                 let value = Value { text: parser.value()?.string()?, option: name };
-                value.set(&mut options, &mut filter)?;
+                value.read(&mut options, &mut filter)?;
             }
         }
     }
@@ -229,7 +229,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     Ok(Request::Render(Box::new(options)))
 }
 
-/// The options whose value is text that [`Value::set`] understands.
+/// The options whose value is text that [`Value::read`] understands.
 const VALUED: [&str; 20] = [
     "alpha",
     "animation",
@@ -260,8 +260,8 @@ struct Filter {
     constant: Option<f32>,
     adaptive: bool,
     gradient: Option<Gradient>,
-    iterations: Option<u32>,
-    outlier_limit: Option<f32>,
+    /// Settings by name, and what they are to be, whatever the preset.
+    changes: Vec<(&'static str, Value)>,
     every_output: bool,
 }
 
@@ -272,11 +272,8 @@ impl Filter {
         if let Some(gradient) = self.gradient {
             settings.filter.gradient = gradient;
         }
-        if let Some(iterations) = self.iterations {
-            settings.filter.iterations = iterations;
-        }
-        if let Some(limit) = self.outlier_limit {
-            settings.filter.outlier_limit = limit;
+        for (setting, value) in &self.changes {
+            value.set(setting, &mut settings)?;
         }
         match (self.constant, self.gradient) {
             (Some(_), Some(Gradient::Reshade | Gradient::Statistics | Gradient::BlinnPhong)) => {
@@ -293,7 +290,7 @@ impl Filter {
         options.settings = settings;
         if self.every_output {
             options.every_output = true;
-            options.outputs = View::ALL.into_iter().filter(|&view| exists(view, &options.settings)).collect();
+            options.outputs = View::ALL.iter().copied().filter(|&view| exists(view, &options.settings)).collect();
         }
         Ok(())
     }
@@ -311,8 +308,7 @@ fn exists(view: View, settings: &Settings) -> bool {
 
 /// What is only said of a rendering.
 impl Value {
-    fn set(&self, options: &mut Options, filter: &mut Filter) -> Result<(), Usage> {
-        let tracer = &mut options.settings.tracer;
+    fn read(self, options: &mut Options, filter: &mut Filter) -> Result<(), Usage> {
         match self.option.as_str() {
             "animation" => options.animation = Some(self.text.clone()),
             "eye" => options.viewpoint.eye = Some(self.vector()?),
@@ -322,11 +318,11 @@ impl Value {
             "size" => options.size = self.size()?,
             "frames" => options.frames = self.whole(1..=1_000_000)?,
             "start-frame" => options.start_frame = self.whole(0..=1_000_000_000)?,
-            "spp" => tracer.samples = self.whole(1..=65_536)?,
-            "bounces" => tracer.bounces = self.whole(0..=1024)?,
-            "seed" => tracer.seed = self.whole(0..=u32::MAX)?,
-            "iterations" => filter.iterations = Some(self.whole(0..=8)?),
-            "outlier-limit" => filter.outlier_limit = Some(self.number(0.0..=1e6)?),
+            "spp" => self.set("tracer.samples", &mut options.settings)?,
+            "bounces" => self.set("tracer.bounces", &mut options.settings)?,
+            "seed" => self.set("tracer.seed", &mut options.settings)?,
+            "iterations" => filter.changes.push(("filter.iterations", self)),
+            "outlier-limit" => filter.changes.push(("filter.outlier_limit", self)),
             "reference" => options.reference = Some(self.whole(1..=1_000_000)?),
             "exposure" => options.exposure = Some(self.number(1e-6..=1e6)?),
             "preset" => filter.classic = self.one_of(&[("default", false), ("classic", true)])?,
@@ -338,7 +334,7 @@ impl Value {
             "format" => options.formats = self.list(|v| v.one_of(&[("png", Format::Png), ("exr", Format::Exr)]))?,
             "outputs" if self.text == "all" => filter.every_output = true,
             "outputs" => {
-                let known: Vec<_> = View::ALL.into_iter().map(|view| (view.name(), view)).collect();
+                let known: Vec<_> = View::ALL.iter().map(|&view| (view.name(), view)).collect();
                 options.outputs = self.list(|v| v.one_of(&known))?;
                 filter.every_output = false;
             }
@@ -367,12 +363,8 @@ impl Value {
     }
 
     fn gradient(&self) -> Result<Gradient, Usage> {
-        self.one_of(&[
-            ("reshade", Gradient::Reshade),
-            ("statistics", Gradient::Statistics),
-            ("blinn-phong", Gradient::BlinnPhong),
-            ("off", Gradient::Off),
-        ])
+        let known = [Gradient::Reshade, Gradient::Statistics, Gradient::BlinnPhong, Gradient::Off];
+        self.one_of(&known.map(|gradient| (gradient.name(), gradient)))
     }
 }
 

@@ -148,7 +148,7 @@ fn a_view_of_what_was_not_made() {
         gpu().submit(|e| stage.denoiser.show(&gpu().device, e, view, ViewOptions::default(), &target))
     };
     let expect = |stage: &mut Stage, missing: &[View]| {
-        for view in View::ALL {
+        for &view in View::ALL {
             match show(stage, view) {
                 Ok(()) => assert!(!missing.contains(&view), "{view:?}"),
                 Err(Error::NoView { view: v, .. }) => assert!(missing.contains(&view) && v == view, "{view:?}"),
@@ -157,7 +157,7 @@ fn a_view_of_what_was_not_made() {
         }
     };
     let mut stage = Stage::built_in("cornell", "static", SIZE, Settings::adaptive());
-    expect(&mut stage, &View::ALL);
+    expect(&mut stage, View::ALL);
     // Nothing moves or repeats, so that objects are not told apart; nothing changes, so that no path is repeated; nothing is summed.
     expect(stage.frames(2), &[View::Object, View::PairNow, View::PairBefore, View::Mean]);
     let everything = Stage::built_in("cornell", "static", SIZE, Settings::adaptive()).leaving_nothing_out();

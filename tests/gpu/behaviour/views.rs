@@ -88,7 +88,7 @@ fn every_view_has_a_picture_with_something_in_it() {
         Stage::built_in("cornell", "static", SIZE, Settings { mode: Mode::Reference, ..Settings::adaptive() });
     reference.frame();
     let target = gpu().target(SIZE, TextureFormat::Rgba8Unorm);
-    for view in View::ALL {
+    for &view in View::ALL {
         let stage = if view == View::Mean { &mut reference } else { &mut stage };
         let options = ViewOptions { exposure: 1.0, range: view.default_range() };
         gpu().submit(|e| stage.denoiser.show(&gpu().device, e, view, options, &target)).unwrap();
