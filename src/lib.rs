@@ -50,7 +50,7 @@ fn frames(
         let mut encoder = device.create_command_encoder(&Default::default());
         scene.update(device, &mut encoder, &loaded.scene.pose(Some(0), index as f32 / 60.0))?;
         let camera = Camera { eye: [0.0, 1.0, 4.0], target: [0.0, 1.0, 0.0], ..Default::default() };
-        denoiser.render(device, &mut encoder, &Frame { scene: &scene, camera, index, target })?;
+        denoiser.render(device, &mut encoder, &Frame::new(&scene, camera, index, target))?;
         queue.submit([encoder.finish()]);
     }
     Ok(())
@@ -62,6 +62,20 @@ fn frames(
 //! # Conventions
 //! Linear Rec. 709 radiance; pixels from the upper left, x right, y down; linear depth along the view; motion is previous −
 //! current position in pixels, without the jitter. The path tracer's world is right-handed, +Y up, in metres; a host's may be any.
+//!
+//! # Versions
+//! Structs that a host fills in have public fields, and minor versions add some. End each literal with `..Default::default()`, or with
+//! a constructor where fields have no default:
+//! ```
+//! # use asvgf::{FilterSettings, Settings, Shading, wgpu};
+//! # fn shading<'a>(radiance: &'a wgpu::TextureView, target: &'a wgpu::TextureView, albedo: &'a wgpu::TextureView) {
+//! let filter = FilterSettings { iterations: 3, ..Default::default() };
+//! let settings = Settings { filter, ..Default::default() };
+//! let shading = Shading { albedo: Some(albedo), ..Shading::new(radiance, target) };
+//! # }
+//! ```
+//! Enums, errors and reports are `#[non_exhaustive]`: a `match` needs an arm for variants to come. The few that are not say why. A new
+//! major version of wgpu makes a breaking release.
 #![deny(missing_docs)]
 #![warn(missing_debug_implementations)]
 

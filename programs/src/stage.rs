@@ -81,7 +81,7 @@ pub fn read(options: &Options) -> Result<Loaded, Box<dyn Error>> {
             let animation = options.animation.as_deref().unwrap_or("all");
             let scene = builtin::scene(name, animation);
             let scene = scene.ok_or_else(|| Usage(format!("{name}: no such built-in scene")))?;
-            Loaded { scene, warnings: Vec::new(), details: Vec::new() }
+            Loaded::from(scene)
         }
         Source::File(path) => scene::load(path)?,
     };

@@ -17,7 +17,7 @@ const OTHER_PATHS: u32 = 0x5eed_0000;
 pub fn render(film: &mut Film<'_>, scene: &GpuScene, camera: Camera, index: u32) -> Result<PassTimes, Error> {
     let device = &film.gpu.device;
     film.expose(|denoiser, encoder, target, after| {
-        denoiser.stepwise(after).render(device, encoder, &Frame { scene, camera, index, target })
+        denoiser.stepwise(after).render(device, encoder, &Frame::new(scene, camera, index, target))
     })
 }
 

@@ -20,6 +20,13 @@ pub struct Matrices {
 }
 
 impl Matrices {
+    /// Matrices without jitter.
+    pub fn new(view: [[f32; 4]; 4], projection: [[f32; 4]; 4]) -> Self {
+        Self { view, projection, jitter: [0.0; 2] }
+    }
+}
+
+impl Matrices {
     /// The affine map from pixel to ray, as `Camera::placed` has it.
     ///
     /// A point v of view space has the linear depth z = s·v_z, with s = ±1 by handedness, and the image point

@@ -7,6 +7,7 @@ use crate::Error;
 
 /// The camera of a frame. [`Camera`] and [`Matrices`] convert into it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Viewpoint {
     /// A camera given by its place and target.
     Camera(Camera),

@@ -42,6 +42,7 @@ pub struct DenoiserDescriptor {
 
 /// The extent to which shaders are specialized for the scene, the settings and the changes since the last frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Specialize {
     /// Frames run exactly the code that the scene, the settings and the changes since the last frame need: the least work. When these
     /// change, a new shader may have to be compiled; [`Denoiser::prepare`] compiles it ahead.

@@ -26,6 +26,13 @@ pub struct Frame<'a> {
     pub target: &'a TextureView,
 }
 
+impl<'a> Frame<'a> {
+    /// A frame of a scene, seen by a camera.
+    pub fn new(scene: &'a GpuScene, camera: Camera, index: u32, target: &'a TextureView) -> Self {
+        Self { scene, camera, index, target }
+    }
+}
+
 impl Denoiser {
     /// Compiles ahead the shaders that frames of a scene may need with the settings in force, whatever changes from one to the next, so
     /// that none of them has to wait. `target` is the format of [`Frame::target`]. May take seconds.

@@ -119,6 +119,13 @@ pub struct Pairs<'a> {
     pub in_place: bool,
 }
 
+impl<'a> Pairs<'a> {
+    /// Pairs beside the pixels' own samples.
+    pub fn new(current: &'a TextureView, previous: &'a TextureView) -> Self {
+        Self { current, previous, in_place: false }
+    }
+}
+
 /// The share of each pixel's history that the host wants dropped.
 #[derive(Clone, Copy, Debug)]
 pub struct Lambda<'a> {
@@ -131,6 +138,13 @@ pub struct Lambda<'a> {
     pub confidence: bool,
 }
 
+impl<'a> Lambda<'a> {
+    /// λ of each pixel.
+    pub fn new(view: &'a TextureView) -> Self {
+        Self { view, block: 1, confidence: false }
+    }
+}
+
 /// The paths of the last frame that a host is to repeat, one in each 3×3 pixels, for
 /// [`Gradient::Reshade`](crate::Gradient::Reshade).
 ///
@@ -139,6 +153,7 @@ pub struct Lambda<'a> {
 /// pixels. No path is repeated in a first frame or after a restart. If [`Surfaces::changes`] says that the scene has not changed, there is
 /// no `Reshade`.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Reshade {
     /// The frame's constants: a uniform buffer, `AsvgfFrame`.
     pub frame: Buffer,

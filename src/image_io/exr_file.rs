@@ -58,6 +58,7 @@ impl Window {
 
 /// A value of a named attribute of an EXR file, of the kinds that describe cameras.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Attribute {
     /// A number.
     Number(f64),
@@ -73,6 +74,7 @@ pub enum Attribute {
 
 /// Type of the stored samples of an EXR file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SampleType {
     /// 16-bit floats. Finite numbers above 65504 become 65504.
     Half,
@@ -82,6 +84,7 @@ pub enum SampleType {
 
 /// Compression of an EXR file. Lossless, unless said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Compression {
     /// None.
     None,

@@ -23,6 +23,7 @@ use std::path::Path;
 /// Reason for which an image file cannot be read or written.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{file}: {reason}")]
+#[non_exhaustive]
 pub struct ImageError {
     /// The file.
     pub file: String,

@@ -70,6 +70,7 @@ pub enum Image {
 
 /// The texels of an image, or the invocations of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Grid {
     /// One per pixel.
     Pixels,

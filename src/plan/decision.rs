@@ -5,6 +5,7 @@ use std::fmt;
 
 /// A decision and its reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Decision {
     /// The feature that it is about.
     pub feature: Feature,

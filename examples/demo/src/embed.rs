@@ -131,7 +131,7 @@ impl Embed {
         self.scene.update(device, encoder, pose)?;
         for film in &mut self.films {
             let index = if film.converges() { self.converged } else { self.index };
-            let frame = Frame { scene: &self.scene, camera, index, target: &film.radiance };
+            let frame = Frame::new(&self.scene, camera, index, &film.radiance);
             match stopwatch.as_mut().filter(|watch| watch.source == film.source) {
                 Some(watch) => film.denoiser.stepwise(|pass, e| watch.stop(pass, e)).render(device, encoder, &frame)?,
                 None => film.denoiser.render(device, encoder, &frame)?,
@@ -145,7 +145,7 @@ impl Embed {
     /// Records more paths of the references, while the frame stands still.
     pub fn converge(&mut self, encoder: &mut CommandEncoder, camera: Camera) -> Result<(), Box<dyn Error>> {
         for film in self.films.iter_mut().filter(|film| film.converges()) {
-            let frame = Frame { scene: &self.scene, camera, index: self.converged, target: &film.radiance };
+            let frame = Frame::new(&self.scene, camera, self.converged, &film.radiance);
             film.denoiser.render(&self.gpu.device, encoder, &frame)?;
         }
         self.converged = self.converged.wrapping_add(1);

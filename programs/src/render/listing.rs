@@ -68,9 +68,9 @@ fn surface(material: &Material, scene: &Scene) -> String {
         parts.push(format!("emits {r:.3} {g:.3} {b:.3}{}", texture(material.emissive_texture)));
     }
     match material.alpha {
-        Alpha::Opaque => {}
         Alpha::Mask(cutoff) => parts.push(format!("opacity {a:.2}, holes below {cutoff:.2}")),
         Alpha::Blend => parts.push(format!("opacity {a:.2}")),
+        _ => {}
     }
     let flags =
         [(material.unlit, "unlit"), (material.double_sided, "double-sided"), (material.culled, "without back faces")];

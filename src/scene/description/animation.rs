@@ -25,8 +25,16 @@ pub struct Channel {
     pub values: Vec<[f32; 4]>,
 }
 
+impl Channel {
+    /// A linear curve through these keys.
+    pub fn new(target: Target, times: Vec<f32>, values: Vec<[f32; 4]>) -> Self {
+        Self { target, interpolation: Interpolation::Linear, times, values }
+    }
+}
+
 /// The property that a [`Channel`] animates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Target {
     /// Translation of a node.
     Translation(usize),
@@ -42,6 +50,7 @@ pub enum Target {
 
 /// The curve of a [`Channel`] between its keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Interpolation {
     /// The value of the key before.
     Step,

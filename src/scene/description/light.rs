@@ -12,8 +12,16 @@ pub struct Light {
     pub range: f32,
 }
 
+impl Light {
+    /// A light that reaches infinitely far.
+    pub fn new(kind: LightKind, intensity: [f32; 3]) -> Self {
+        Self { kind, intensity, range: f32::INFINITY }
+    }
+}
+
 /// Shape of a [`Light`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum LightKind {
     /// Parallel light from infinitely far away.
     Directional,

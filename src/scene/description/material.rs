@@ -87,6 +87,7 @@ impl Material {
 
 /// The use of a material's opacity.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Alpha {
     /// Opacity is ignored.
     #[default]

@@ -2,6 +2,7 @@
 
 /// An element of a file that could not be honoured. The rest was loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Warning {
     /// The element, as the file names it: `images[3]`, `materials[0] "glass"`, `extension KHR_draco…`.
     pub element: String,
@@ -12,6 +13,7 @@ pub struct Warning {
 /// The reason why a scene cannot be used.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{file}: {element}: {reason}")]
+#[non_exhaustive]
 pub struct SceneError {
     /// The file (or `scene`, for one that was made in code).
     pub file: String,

@@ -30,6 +30,7 @@ impl Texture {
 
 /// The continuation of a texture outside 0…1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Wrap {
     /// The image repeats.
     #[default]

@@ -7,6 +7,7 @@ use crate::scene::description::{Scene, SceneError, Warning};
 
 /// A scene, and warnings about the parts of its file that could not be honoured.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Loaded {
     /// The scene; it passes [`Scene::validate`].
     pub scene: Scene,
@@ -15,6 +16,13 @@ pub struct Loaded {
     pub warnings: Vec<Warning>,
     /// A warning for each element, 65 536 at most, for listings that show them beside the elements of the file.
     pub details: Vec<Warning>,
+}
+
+impl From<Scene> for Loaded {
+    /// A scene that was made in code: all of it is honoured.
+    fn from(scene: Scene) -> Self {
+        Self { scene, warnings: Vec::new(), details: Vec::new() }
+    }
 }
 
 /// A defect of an element. [`Report::error`] adds the file.
