@@ -1,24 +1,21 @@
 //! Importers on scene files from elsewhere, where they are at hand: `../shared/scenes` next to the repository, with
-//! triangle counts, areas and bounds that other programs have measured.
+//! triangle counts, areas and bounds that other programs have measured. Small files for each element are in `importers`.
 #![cfg(all(feature = "gltf", feature = "obj"))]
+
+#[path = "common/shared.rs"]
+mod shared;
 
 use std::fs;
 use std::panic;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use asvgf::scene::{Alpha, LightKind, Loaded, Wrap, load};
 use serde_json::Value;
+use shared::shared;
 
-/// The folder with the scenes, or `None` with a note.
-fn scenes() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/scenes");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("{} is not there; nothing is tested", folder.display());
-    None
-}
+/// A file that is always at hand.
+const ROOM: &str = "assets/textured/room.glb";
 
 /// The entries of a file of expectations.
 fn expectations(path: &Path) -> Vec<(String, Value)> {
@@ -60,7 +57,7 @@ fn assert_measures(name: &str, loaded: &Loaded, expected: &Value) {
 
 #[test]
 fn scenes_have_the_measures_that_others_found() {
-    let Some(folder) = scenes() else { return };
+    let Some(folder) = shared("scenes") else { return };
     for (name, expected) in expectations(&folder.join("expected_scenes.json")) {
         let loaded = read(folder.join(&name));
         for warning in &loaded.warnings {
@@ -70,9 +67,20 @@ fn scenes_have_the_measures_that_others_found() {
     }
 }
 
+/// The repository's own file, measured by a script that knows nothing of the importer.
+#[test]
+fn the_room_has_the_measures_that_a_script_found() {
+    let loaded = read(Path::new(env!("CARGO_MANIFEST_DIR")).join(ROOM));
+    let expected = serde_json::json!({
+        "triangles": 1574, "area": 73.14719, "bbox": [[-2.0, 0.0, -2.0], [2.0, 2.6, 2.0]], "emissive_triangles": 2, "lights": 0,
+    });
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    assert_measures(ROOM, &loaded, &expected);
+}
+
 #[test]
 fn edge_cases_load_or_fail_as_they_should() {
-    let Some(folder) = scenes() else { return };
+    let Some(folder) = shared("scenes") else { return };
     for (name, expected) in expectations(&folder.join("edge_cases/expected.json")) {
         let file = format!("{name}.gltf");
         let result = load(folder.join("edge_cases").join(&file));
@@ -92,7 +100,7 @@ fn edge_cases_load_or_fail_as_they_should() {
 
 #[test]
 fn errors_name_the_element() {
-    let Some(folder) = scenes() else { return };
+    let Some(folder) = shared("scenes") else { return };
     let primitive = "meshes[0].primitives[0]";
     for (name, element, reason) in [
         ("bad_index_out_of_range", format!("{primitive}.indices"), "999"),
@@ -111,7 +119,7 @@ fn errors_name_the_element() {
 
 #[test]
 fn warnings_say_what_is_left_out() {
-    let Some(folder) = scenes() else { return };
+    let Some(folder) = shared("scenes") else { return };
     let quiet = [
         "bevy_cornell_box/CornellBox.glb",
         "bevy_gltf_primitives/gltf_primitives.glb",
@@ -153,7 +161,7 @@ fn warnings_say_what_is_left_out() {
 
 #[test]
 fn textures_are_decoded_and_placed() {
-    let Some(folder) = scenes() else { return };
+    let Some(folder) = shared("scenes") else { return };
     let scene = read(folder.join("edge_cases/textures_uv_formats.gltf")).scene;
     assert_eq!(scene.images.len(), 2);
     for image in &scene.images {
@@ -191,7 +199,7 @@ fn textures_are_decoded_and_placed() {
 
 #[test]
 fn materials_lights_and_names() {
-    let Some(folder) = scenes() else { return };
+    let Some(folder) = shared("scenes") else { return };
     let cornell = read(folder.join("cornell_original/CornellBox-Original.obj")).scene;
     let material = |name: &str| cornell.materials.iter().find(|material| material.name == name).unwrap();
     assert_eq!(material("light").emissive, [17.0, 12.0, 4.0]);
@@ -220,7 +228,8 @@ fn materials_lights_and_names() {
 /// Small files with bytes cut off or changed: whatever they are, there is a result, and soon.
 #[test]
 fn damaged_files_never_panic() {
-    let Some(folder) = scenes() else { return };
+    // The repository's own file at least.
+    let mut files = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(ROOM)];
     let names = [
         "edge_cases/textures_uv_formats.gltf",
         "edge_cases/lights_punctual.gltf",
@@ -234,6 +243,7 @@ fn damaged_files_never_panic() {
         "cornell_original/CornellBox-Original.obj",
         "cornell_original/CornellBox-Original.mtl",
     ];
+    files.extend(shared("scenes").into_iter().flat_map(|folder| names.map(|name| folder.join(name))));
     let temporary = std::env::temp_dir().join(format!("asvgf-damaged-{}", std::process::id()));
     fs::create_dir_all(&temporary).unwrap();
     let mut state = 0x2545_F491_4F6C_DD1D_u64;
@@ -246,9 +256,9 @@ fn damaged_files_never_panic() {
     };
     let start = Instant::now();
     let (mut loads, mut accepted) = (0, 0);
-    for name in names {
-        let whole = fs::read(folder.join(name)).unwrap();
-        let extension = Path::new(name).extension().unwrap().to_string_lossy().into_owned();
+    for file in files {
+        let (name, whole) = (file.display(), fs::read(&file).unwrap());
+        let extension = file.extension().unwrap().to_string_lossy().into_owned();
         for round in 0..100 {
             let mut bytes = whole.clone();
             match round % 4 {
@@ -266,7 +276,7 @@ fn damaged_files_never_panic() {
             let path = if extension == "mtl" {
                 fs::write(temporary.join("CornellBox-Original.mtl"), &bytes).unwrap();
                 let obj = temporary.join("whole.obj");
-                fs::copy(folder.join("cornell_original/CornellBox-Original.obj"), &obj).unwrap();
+                fs::copy(file.with_extension("obj"), &obj).unwrap();
                 obj
             } else {
                 let path = temporary.join(format!("damaged.{extension}"));

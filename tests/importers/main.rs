@@ -2,6 +2,8 @@
 #![cfg(all(feature = "gltf", feature = "obj"))]
 
 mod common;
+#[path = "../common/shared.rs"]
+mod shared;
 
 mod animation;
 mod documentation;

@@ -1,10 +1,9 @@
 //! OBJ files after what people report to loaders, where they are at hand: `../shared/wild/obj` next to the repository.
 
-use std::path::Path;
-
 use asvgf::scene::{Alpha, Loaded, load};
 
 use crate::common::*;
+use crate::shared::shared;
 
 /// The colour of the material that is drawn.
 fn color(loaded: &Loaded) -> [f32; 4] {
@@ -18,11 +17,7 @@ fn first_texel(loaded: &Loaded) -> [u8; 4] {
 
 #[test]
 fn files_in_the_wild() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/wild/obj");
-    if !folder.is_dir() {
-        println!("{} is not there; skipped", folder.display());
-        return;
-    }
+    let Some(folder) = shared("wild/obj") else { return };
     let read = |name: &str| load(folder.join(format!("{name}.obj"))).unwrap_or_else(|error| panic!("{error}"));
     for name in ["quad_a", "quad_b", "concave_arrow"] {
         assert_warnings(&read(name), &[]);

@@ -1,19 +1,9 @@
 //! glTF files and environments after what people report to loaders, where they are at hand: `../shared/wild` next to the repository.
 
-use std::path::{Path, PathBuf};
-
 use asvgf::scene::{Alpha, Environment, Loaded, load};
 
 use crate::common::*;
-
-fn folder(name: &str) -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/wild").join(name);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    println!("{} is not there; skipped", folder.display());
-    None
-}
+use crate::shared::shared;
 
 fn color(loaded: &Loaded) -> [f32; 4] {
     loaded.scene.materials[loaded.scene.meshes[0].material].base_color
@@ -21,7 +11,7 @@ fn color(loaded: &Loaded) -> [f32; 4] {
 
 #[test]
 fn gltf_files_in_the_wild() {
-    let Some(folder) = folder("gltf") else { return };
+    let Some(folder) = shared("wild/gltf") else { return };
     let file = |name: &str| folder.join(if name.contains('.') { name.to_owned() } else { format!("{name}.gltf") });
     let read = |name: &str| load(file(name)).unwrap_or_else(|error| panic!("{error}"));
     for name in
@@ -78,7 +68,7 @@ fn gltf_files_in_the_wild() {
 
 #[test]
 fn environments_in_the_wild() {
-    let Some(folder) = folder("env") else { return };
+    let Some(folder) = shared("wild/env") else { return };
     for (name, corners, warnings) in [
         ("rgbe.hdr", [[4.0, 0.5, 0.25], [0.25, 0.5, 2.0]], 0),
         ("crlf.hdr", [[4.0, 0.5, 0.25], [0.25, 0.5, 2.0]], 0),

@@ -7,4 +7,6 @@ mod folder;
 mod forms;
 mod names;
 mod refusals;
+#[path = "../../../tests/common/shared.rs"]
+mod shared;
 mod time;
