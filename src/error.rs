@@ -88,10 +88,10 @@ pub enum Error {
         remedy: &'static str,
     },
     /// `filter.gradient` names a source that this kind of frame does not have.
-    #[error("`filter.gradient` is {asked:?}, which {reason}")]
+    #[error("`filter.gradient` is {asked}, which {reason}")]
     GradientSource {
-        /// The setting.
-        asked: crate::Gradient,
+        /// [`Gradient::name`](crate::Gradient::name) of the setting.
+        asked: &'static str,
         /// The reason and the remedy.
         reason: &'static str,
     },

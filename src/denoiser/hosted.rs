@@ -57,7 +57,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         let (settings, recorder) = (&denoiser.settings, &denoiser.recorder);
         if settings.mode == Mode::Denoise && settings.filter.gradient == Gradient::BlinnPhong {
             let reason = "needs a scene: choose Automatic, Reshade, Statistics, Pairs, Lambda or Off for your own renderer's frames";
-            return Err(Error::GradientSource { asked: Gradient::BlinnPhong, reason });
+            return Err(Error::GradientSource { asked: Gradient::BlinnPhong.name(), reason });
         }
         let camera = surfaces.camera.placed(recorder.size)?;
         let (diagnostics, views) = (recorder.counters.is_some(), recorder.textures.keeps());

@@ -80,7 +80,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         if settings.mode == Mode::Denoise && matches!(asked, Gradient::Pairs | Gradient::Lambda) {
             let reason =
                 "comes from a host's renderer: choose Automatic, Reshade, Statistics, BlinnPhong or Off for a scene";
-            return Err(Error::GradientSource { asked, reason });
+            return Err(Error::GradientSource { asked: asked.name(), reason });
         }
         let format = host::target(target, recorder.size, &[TextureFormat::Rgba16Float, TextureFormat::Rgba32Float])?;
         let camera = Viewpoint::from(frame.camera).placed(recorder.size)?;

@@ -1,7 +1,7 @@
 //! The promises of the settings' own words.
 
 use super::*;
-use crate::plan::{Changes, Features, HostTraits, Plan};
+use crate::plan::{Changes, Features, HostInputs, Plan};
 use std::collections::BTreeSet;
 use wgpu::TextureFormat;
 
@@ -101,16 +101,17 @@ fn varied(base: &Settings, setting: &Setting) -> Vec<Settings> {
 /// The shaders that several kinds of frames run: passes with what is compiled into them.
 fn shaders(settings: &Settings) -> Vec<BTreeSet<(&'static str, Features)>> {
     let target = TextureFormat::Rgba16Float;
-    let traits = [[false, false], [true, false], [false, true]].map(|[pairs, lambda]| HostTraits {
+    let inputs = [[false, false], [true, false], [false, true]].map(|[pairs, lambda]| HostInputs {
         pairs,
         lambda,
         ..Default::default()
     });
-    let mut plans: Vec<Plan> = traits.iter().map(|t| Plan::hosted(t, settings, Changes::ANY, target)).collect();
+    let mut plans: Vec<Plan> =
+        inputs.iter().map(|inputs| Plan::hosted(inputs, settings, Changes::ANY, target)).collect();
     #[cfg(feature = "path-tracer")]
     {
-        let traits = crate::plan::Traits { emitters: true, levels: 20, ..Default::default() };
-        plans.push(Plan::path_traced(&traits, settings, Changes::ANY, target));
+        let contents = crate::plan::SceneContents { emitters: true, levels: 20, ..Default::default() };
+        plans.push(Plan::path_traced(&contents, settings, Changes::ANY, target));
     }
     plans.iter().map(|plan| plan.steps.iter().map(|step| (step.pass.name(), step.features)).collect()).collect()
 }

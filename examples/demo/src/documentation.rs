@@ -49,7 +49,7 @@ fn plain(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use asvgf::plan::{Changes, HostTraits, Plan, Traits};
+    use asvgf::plan::{Changes, HostInputs, Plan, SceneContents};
     use asvgf::{FilterSettings, Gradient, Settings, wgpu};
 
     #[test]
@@ -80,10 +80,10 @@ mod tests {
         for filter in gradients.chain([FilterSettings::classic(), plain]) {
             let settings = Settings { filter, ..Settings::adaptive() };
             for changes in [Changes::ANY, Changes::NONE] {
-                for traits in [Traits::default(), Traits::default().everything()] {
-                    reasons.extend(Plan::path_traced(&traits, &settings, changes, target).decisions);
+                for contents in [SceneContents::default(), SceneContents::default().everything()] {
+                    reasons.extend(Plan::path_traced(&contents, &settings, changes, target).decisions);
                 }
-                reasons.extend(Plan::hosted(&HostTraits::default(), &settings, changes, target).decisions);
+                reasons.extend(Plan::hosted(&HostInputs::default(), &settings, changes, target).decisions);
             }
         }
         reasons.into_iter().map(|decision| decision.reason).collect()

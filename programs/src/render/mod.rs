@@ -199,12 +199,16 @@ fn write_comparison<'a>(
     let samples = options.settings.tracer.samples;
     let exposure = options.exposure.unwrap_or_else(|| comparison::exposure(&truth));
     let alpha = constant.denoiser.settings().filter.alpha;
+    let label = match options.denoised_reference() {
+        Some(_) => "reference, denoised".into(),
+        None => reference_in_words(options),
+    };
     let tiles = [
         // Of the constant one: the adaptive one repeats some of the last frame's paths.
         Tile { label: format!("noisy, {samples} spp"), colors: constant.numbers(View::Noisy)? },
         Tile { label: format!("constant alpha {alpha}"), colors: constant.numbers(View::Denoised)? },
         Tile { label: "adaptive alpha".into(), colors: adaptive.numbers(View::Denoised)? },
-        Tile { label: reference_in_words(options), colors: truth },
+        Tile { label, colors: truth },
     ];
     comparison::write(&options.out.join("comparison.png"), options.size, &tiles, exposure)?;
     Ok(())

@@ -1,5 +1,6 @@
 //! A sequence before anything is traced: where everything is in its frames, and how their references are called.
 
+use crate::program::repository;
 use crate::render::options::Options as Shown;
 use crate::report::hash::Hash;
 use crate::report::suite::{Sequence, Suite};
@@ -7,7 +8,7 @@ use crate::stage::Stage;
 use asvgf::scene::Pose;
 use asvgf::{Camera, Settings};
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Where references are kept between reports.
 const FOLDER: &str = "target/references";
@@ -44,6 +45,6 @@ impl Script {
 
     /// The file that a frame's reference is kept in. Frames that look the same share theirs.
     pub fn reference(&self, pose: &Pose, camera: &Camera) -> PathBuf {
-        Path::new(FOLDER).join(format!("{}.exr", self.hash.and(pose).and(camera)))
+        repository().join(FOLDER).join(format!("{}.exr", self.hash.and(pose).and(camera)))
     }
 }

@@ -1,7 +1,7 @@
 //! Sequences through the filter.
 
-use crate::shared::shared;
 use crate::folder::{Folder, Frames, add, random, wall};
+use crate::shared::shared;
 use asvgf::image_io::write_exr_rgb;
 use asvgf::scene::{GpuScene, builtin};
 use asvgf::{Camera, FilterSettings, Gradient, Settings, View};
