@@ -43,6 +43,13 @@ fn is_for_tests(attributes: &[Attribute]) -> bool {
     })
 }
 
+/// The modules in files of their own that a file declares for tests alone.
+fn test_modules(module: &Module, file: &File) -> Vec<Module> {
+    let declared = file.items.iter().filter_map(|item| if let Item::Mod(item) = item { Some(item) } else { None });
+    let for_tests = declared.filter(|item| item.content.is_none() && is_for_tests(&item.attrs));
+    for_tests.map(|item| [&module[..], &[item.ident.to_string()]].concat()).collect()
+}
+
 /// Collects the paths of a file that begin at the crate's root or at a parent.
 #[derive(Default)]
 struct Paths(Vec<Vec<String>>);
@@ -138,15 +145,15 @@ fn graph() -> Graph {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut paths = Vec::new();
     sources(&root, &mut paths);
-    let files: BTreeMap<Module, File> = paths
+    let mut files: BTreeMap<Module, File> = paths
         .iter()
-        // The twins are tests.
-        .filter(|path| !path.starts_with(root.join("twins")))
         .map(|path| {
             let file = syn::parse_file(&std::fs::read_to_string(path).unwrap());
             (module_of(path, &root), file.unwrap_or_else(|e| panic!("{}: {e}", path.display())))
         })
         .collect();
+    let tests: Vec<Module> = files.iter().flat_map(|(module, file)| test_modules(module, file)).collect();
+    files.retain(|module, _| !tests.iter().any(|tests| module.starts_with(tests)));
     let exports = exports(&files[&Module::new()], &files);
     let mut graph = Graph::new();
     for (module, file) in files.iter().filter(|(module, _)| !module.is_empty()) {
