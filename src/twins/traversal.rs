@@ -363,6 +363,29 @@ fn a_thousand_instances_mirrored_and_stretched() {
     check("instances", &scene, &pose);
 }
 
+/// The stack of the shader is that of the pose at rest. Instances that gather at one place must not need a longer one.
+#[test]
+fn instances_that_gather_at_one_place() {
+    // All boxes are equal, so that obvhs makes a chain of them; each holds another triangle, so that none may be lost.
+    let corner = |x: f32| [[x, x, x], [x, x, 0.99 * x], [x, 0.99 * x, x]];
+    let triangles = soup(400, [-0.5, 0.3]);
+    let meshes = triangles.chunks_exact(3).map(|triangle| {
+        let positions = [triangle, &corner(-8.0), &corner(8.0)].concat();
+        Mesh { positions, triangles: vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]], ..Default::default() }
+    });
+    let meshes: Vec<Mesh> = meshes.collect();
+    let nodes = (0..meshes.len()).map(|i| {
+        let translation = [(i % 20) as f32 - 9.5, (i / 20) as f32 - 9.5, 0.0].map(|x| 20.0 * x);
+        let transform = Transform::Trs { translation, rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
+        Node { meshes: vec![i], transform, movable: true, ..Default::default() }
+    });
+    let nodes = nodes.collect();
+    let scene = Scene { materials: vec![Material::default()], meshes, nodes, ..Default::default() };
+    let mut pose = scene.pose(None, 0.0);
+    pose.world.fill(DMat4::IDENTITY.to_cols_array_2d());
+    check("gathered instances", &scene, &pose);
+}
+
 #[test]
 fn as_many_triangles_as_are_tested_one_by_one_and_one_more() {
     for count in [3, 8, 9, 64, 65] {

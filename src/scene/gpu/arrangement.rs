@@ -22,6 +22,8 @@ pub(crate) struct Arrangement {
     /// The constants without the grid, which [`Arrangement::top_level`] adds.
     pub header: Header,
     pub instances: Vec<Instance>,
+    /// Most levels of the top level that the traversal's stack has room for.
+    pub deepest: u32,
     pub lights: Lights,
     pub materials: Vec<Material>,
     pub images: Vec<Place>,
@@ -80,7 +82,7 @@ impl Arrangement {
             let header = self.header.with_grid(self.instances[0].grid);
             return TopLevel { header, texels: Vec::new(), depth: 0 };
         }
-        let placed = instances::place(&self.instances, pose, self.centre, self.header.root());
+        let placed = instances::place(&self.instances, pose, self.centre, self.header.root(), self.deepest);
         TopLevel { header: self.header.with_grid(placed.grid), texels: placed.texels, depth: placed.depth }
     }
 

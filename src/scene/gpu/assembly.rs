@@ -16,6 +16,7 @@ use super::memory::capacity::Capacity;
 use super::memory::folded::Texel;
 use super::surface::materials::GpuMaterial;
 use super::surface::places::{are_folded, places};
+use super::tree;
 use crate::plan::SceneContents;
 use crate::scene::description::{Environment, Image, Pose, Scene, SceneError};
 use glam::DVec3;
@@ -87,6 +88,7 @@ impl<'a> Assembly<'a> {
             instanced: sections.instanced,
             header,
             instances,
+            deepest: tree::DEEPEST,
             lights,
             materials: scene.materials.clone(),
             images,
@@ -96,6 +98,7 @@ impl<'a> Assembly<'a> {
         let top_level = arrangement.top_level(&pose);
         let levels = geometry.depth + top_level.depth;
         let stack = checked_stack(levels)?;
+        arrangement.deepest = stack - BESIDE_LEVELS - geometry.depth;
         let texels = sections.joined(&geometry.rows, &top_level.texels, &geometry.nodes);
         capacity.check_texels("triangles and their trees", texels.len())?;
         let Geometry { attributes, rows, .. } = geometry;
@@ -167,10 +170,13 @@ fn instances(
     instances
 }
 
-/// Slots that a traversal of so many levels needs. Three come on top: one for the bottom, one for the mark between the two levels of
-/// trees, and one that is written before it is known to be kept.
+/// Slots of the stack beside those of the levels: one for the bottom, one for the mark between the two levels of trees, and one that
+/// is written before it is known to be kept.
+const BESIDE_LEVELS: u32 = 3;
+
+/// Slots that a traversal of so many levels needs.
 fn checked_stack(levels: u32) -> Result<u32, SceneError> {
-    let stack = (levels + 3).next_multiple_of(4);
+    let stack = (levels + BESIDE_LEVELS).next_multiple_of(4);
     if stack <= LARGEST_STACK {
         return Ok(stack);
     }

@@ -52,10 +52,10 @@ pub(crate) struct Placed {
     pub grid: Quantization,
 }
 
-/// The top level and the instances' records in a pose, relative to the scene's centre.
-pub(crate) fn place(instances: &[Instance], pose: &Pose, centre: DVec3, first_node: u32) -> Placed {
+/// The top level, of at most `deepest` levels, and the instances' records in a pose, relative to the scene's centre.
+pub(crate) fn place(instances: &[Instance], pose: &Pose, centre: DVec3, first_node: u32, deepest: u32) -> Placed {
     let boxes: Vec<_> = instances.iter().map(|i| transform_box(i.placement(pose, centre), i.bounds)).collect();
-    let top = tree::over_instances(&boxes, first_node);
+    let top = tree::over_instances(&boxes, first_node, deepest);
     let mut texels = folded::texels(&top.nodes).to_vec();
     // Room for the most nodes that a tree over these instances can have, so that the records never move.
     texels.resize(top_level_nodes(instances.len()) * NODE_TEXELS, Texel::default());

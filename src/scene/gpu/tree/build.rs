@@ -4,21 +4,20 @@ use super::halve::halve;
 use super::layout::{Leaves, Tree, lay_out};
 use glam::Vec3A;
 use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
-use obvhs::{BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
+use obvhs::{Boundable, BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
 use std::collections::HashMap;
 
 /// Most triangles in a leaf. Up to here, a test of each is cheaper than another level.
 const LEAF_TRIANGLES: u32 = 2;
 
-/// Most triangles with the same box for which obvhs builds the tree. It merges neighbours pair by pair, which takes quadratic time
+/// Most equal boxes for which obvhs builds the tree. It merges neighbours pair by pair, which takes quadratic time
 /// if all are equally near.
 const CROWD: usize = 1000;
 
-/// The largest number of triangles that share a box.
-fn largest_crowd(triangles: &[Triangle]) -> usize {
+/// The largest number of boxes that are equal.
+fn largest_crowd(boxes: &[Aabb]) -> usize {
     let mut crowds = HashMap::<[u32; 6], usize>::new();
-    for triangle in triangles {
-        let Aabb { min, max } = triangle.aabb();
+    for Aabb { min, max } in boxes {
         let key = [min.x, min.y, min.z, max.x, max.y, max.z].map(f32::to_bits);
         *crowds.entry(key).or_default() += 1;
     }
@@ -31,16 +30,17 @@ pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_r
         .iter()
         .map(|t| Triangle { v0: Vec3A::from(t[0]), v1: Vec3A::from(t[1]), v2: Vec3A::from(t[2]) })
         .collect();
-    let lay_out = |bvh: &Bvh2| lay_out(bvh, triangles.len(), first_node, Leaves::Triangles(first_row));
-    if largest_crowd(&triangles) <= CROWD {
-        let boxes: Vec<Aabb> = (0..).zip(&triangles).map(|(number, t)| unlike(t.aabb(), number)).collect();
+    let boxes: Vec<Aabb> = triangles.iter().map(Boundable::aabb).collect();
+    let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Triangles(first_row));
+    if largest_crowd(&boxes) <= CROWD {
+        let boxes: Vec<Aabb> = (0..).zip(&boxes).map(|(number, &b)| unlike(b, number)).collect();
         let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() };
         let tree = lay_out(&build(&boxes, params));
         if tree.depth <= DEEPEST {
             return tree;
         }
     }
-    lay_out(&halve(&triangles, LEAF_TRIANGLES as usize))
+    lay_out(&halve(&boxes, LEAF_TRIANGLES as usize))
 }
 
 /// The steps of obvhs' `build_bvh2`. That function also measures their time, with a clock that browsers lack.
@@ -68,16 +68,26 @@ fn unlike(Aabb { min, max }: Aabb, number: u32) -> Aabb {
     Aabb { min: min - most * parts(0), max: max + most * parts(3) }
 }
 
-/// Most levels of a tree of obvhs over triangles. A deeper one is replaced by [`halve`]. Real geometry needs some thirty levels, and
-/// a traversal's stack holds 64.
-const DEEPEST: u32 = 48;
+/// Most levels of a tree of obvhs. A deeper one is replaced by [`halve`]. Real geometry needs some thirty levels, and a traversal's
+/// stack holds 64.
+pub(crate) const DEEPEST: u32 = 48;
 
 /// A tree over the world-space boxes of instances, one per leaf. Its nodes have numbers from `first_node` on.
-pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]], first_node: u32) -> Tree {
+///
+/// Shaders are compiled with a stack for the trees of one pose. In another pose instances may gather at one place, of which obvhs
+/// makes a chain: rays would run over the end of the stack and miss what lies there. A tree of more than `deepest` levels is therefore
+/// replaced by [`halve`], which needs no more levels than any tree over as many instances.
+pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]], first_node: u32, deepest: u32) -> Tree {
     let boxes: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(b[0].into(), b[1].into())).collect();
-    let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
-    let bvh = build(&boxes, params);
-    lay_out(&bvh, boxes.len(), first_node, Leaves::Instances)
+    let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Instances);
+    if largest_crowd(&boxes) <= CROWD {
+        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
+        let tree = lay_out(&build(&boxes, params));
+        if tree.depth <= deepest {
+            return tree;
+        }
+    }
+    lay_out(&halve(&boxes, 1))
 }
 
 #[cfg(test)]
@@ -147,6 +157,19 @@ mod tests {
             assert_eq!(ours.primitive_indices, theirs.primitive_indices);
             let bytes = |bvh: &Bvh2| bytemuck::cast_slice::<_, u8>(&bvh.nodes).to_vec();
             assert!(bytes(&ours) == bytes(&theirs));
+        }
+    }
+
+    #[test]
+    fn instances_that_gather_make_a_tree_that_the_stack_of_another_pose_can_hold() {
+        let at = |x: f32| [[x, 0.0, 0.0], [x + 0.5, 0.5, 0.5]];
+        let apart: Vec<_> = (0..1000).map(|i| at(i as f32)).collect();
+        let gathered = vec![at(7.0); 1000];
+        let rest = over_instances(&apart, 0, DEEPEST).depth;
+        assert!(over_instances(&gathered, 0, u32::MAX).depth > 64, "obvhs makes a chain of them");
+        for boxes in [gathered, vec![at(7.0); 1001], apart] {
+            let depth = over_instances(&boxes, 0, rest).depth;
+            assert!(depth <= rest, "{depth} levels, {rest} at rest");
         }
     }
 

@@ -1,18 +1,16 @@
-//! A tree for triangles that obvhs handles badly.
+//! A tree for boxes that obvhs handles badly.
 
 use glam::Vec3A;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::{Bvh2, node::Bvh2Node};
-use obvhs::triangle::Triangle;
 
-/// A tree that halves its triangles at each level, at the median of their centres along the longest side of the box around these.
-/// obvhs makes a chain of triangles that coincide, and too deep a tree of some regular grids. A leaf has `most` triangles at most.
-pub(crate) fn halve(triangles: &[Triangle], most: usize) -> Bvh2 {
-    let centers: Vec<Vec3A> = triangles.iter().map(|t| t.aabb().center()).collect();
-    let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
-    let bounds = |run: &[u32]| {
-        run.iter().map(|&i| triangles[i as usize].aabb()).fold(Aabb::empty(), |all, next| all.union(&next))
-    };
+/// A tree that halves its boxes at each level, at the median of their centres along the longest side of the box around these. Its
+/// depth is the least that so many leaves can have. obvhs makes a chain of boxes that coincide, and too deep a tree of some regular
+/// grids. A leaf has `most` boxes at most.
+pub(crate) fn halve(boxes: &[Aabb], most: usize) -> Bvh2 {
+    let centers: Vec<Vec3A> = boxes.iter().map(Aabb::center).collect();
+    let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
+    let bounds = |run: &[u32]| run.iter().fold(Aabb::empty(), |all, &i| all.union(&boxes[i as usize]));
     let mut nodes = vec![Bvh2Node::new(bounds(&order), order.len() as u32, 0)];
     let mut pending = vec![0];
     while let Some(index) = pending.pop() {

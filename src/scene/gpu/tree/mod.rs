@@ -6,7 +6,7 @@ mod layout;
 mod node;
 mod quantization;
 
-pub(crate) use build::{over_instances, over_triangles};
+pub(crate) use build::{DEEPEST, over_instances, over_triangles};
 pub(crate) use layout::Tree;
 pub(crate) use node::{LARGEST_FIRST, Node};
 pub(crate) use quantization::Quantization;
