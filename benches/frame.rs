@@ -1,7 +1,8 @@
-//! What a frame costs: `cargo bench --bench frame [-- [FRAMES] [CASE]]`; CASE is a part of a case's name, as printed.
+//! Measures the cost of a frame: `cargo bench --bench frame [-- [FRAMES] [CASE]]`; CASE is a part of a case's name, as
+//! printed.
 //!
-//! Prints the adapter and how times are taken, then for each case the median over the frames of each pass, and rays per
-//! second. Compare only figures of one run.
+//! Prints the adapter and the clock, and for each case the median over the frames of each pass and the rays per second.
+//! Compare only figures of one run.
 
 use asvgf::scene::{GpuScene, builtin};
 use asvgf::{Settings, View};
@@ -11,7 +12,7 @@ use asvgf_programs::times::{Clock, median};
 use asvgf_programs::tracing;
 use std::collections::BTreeMap;
 
-/// Frames before the first that counts: pipelines compile in the first, histories are short in the next.
+/// Frames before the first that counts: pipelines compile in the first frame, and histories are short in the next ones.
 const WARM_UP: u32 = 5;
 
 fn main() {
@@ -30,13 +31,13 @@ fn main() {
     let chosen: Vec<String> =
         std::env::args().skip(1).filter(|a| a.parse::<u32>().is_err() && !a.starts_with('-')).collect();
     let runs = |case: &str| chosen.iter().all(|c| case.contains(c.as_str()));
-    // The box fills a square image; the wide one is what a filter is usually quoted for.
+    // The box fills a square image; filters are usually quoted for the wide one.
     for [scene, animation] in [["cornell", "static"], ["cornell", "all"], ["pillars", "static"]] {
         if runs(&format!("trace {scene}, {animation}")) {
             trace(&gpu, scene, animation, [512, 512], frames);
         }
     }
-    // The lamp moves: where nothing changes, most of the filter is left out.
+    // The lamp moves, because the denoiser skips most of the filter if nothing changes.
     for (name, animation, settings) in [
         ("adaptive", "move-light", Settings::adaptive()),
         ("constant 0.1", "move-light", Settings::adaptive().constant(0.1)),
@@ -49,7 +50,7 @@ fn main() {
     }
 }
 
-/// Rays per second of the tracing passes, at three bounces with light samples.
+/// Measures rays per second of the tracing passes, at three bounces with light samples.
 fn trace(gpu: &Gpu, scene: &str, animation: &str, size: [u32; 2], frames: u32) {
     let (times, rays) = measure(gpu, scene, animation, size, Settings::adaptive(), frames);
     let milliseconds = times["visibility"] + times["trace"];
@@ -62,7 +63,7 @@ fn trace(gpu: &Gpu, scene: &str, animation: &str, size: [u32; 2], frames: u32) {
     );
 }
 
-/// Milliseconds of everything but tracing.
+/// Measures the milliseconds of all passes except tracing.
 fn filter(gpu: &Gpu, (name, animation): (&str, &str), settings: Settings, frames: u32) {
     let size = [1280, 720];
     let (times, _) = measure(gpu, "cornell", animation, size, settings, frames);
@@ -74,7 +75,7 @@ fn filter(gpu: &Gpu, (name, animation): (&str, &str), settings: Settings, frames
     }
 }
 
-/// Median milliseconds of each pass, iterations added up, and the rays of the last frame.
+/// Returns the median milliseconds of each pass, iterations added up, and the rays of the last frame.
 fn measure(
     gpu: &Gpu,
     name: &str,

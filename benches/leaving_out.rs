@@ -1,11 +1,12 @@
-//! What leaving out saves: `cargo bench --bench leaving_out [-- FRAMES]`.
+//! Measures the savings from leaving code and passes out: `cargo bench --bench leaving_out [-- FRAMES]`.
 //!
-//! For each scene, from everything compiled in and nothing known to be unchanged down to the least: dispatches, bytes per pixel of
-//! the denoiser's images, milliseconds of a frame's passes, and of the first frame, in which its shaders are compiled. On an adapter
-//! that is the CPU, milliseconds are processor time over the number of cores. Set `MESA_SHADER_CACHE_DISABLE=1` there: compiled
-//! shaders are else kept from run to run. Compare only figures of one run.
+//! For each scene, the rows go from everything compiled in and nothing known to be unchanged down to the least. Each
+//! row has the dispatches, the bytes per pixel of the denoiser's images, the milliseconds of a frame's passes, and the
+//! milliseconds of the first frame, which compiles the shaders. If the adapter is the CPU, milliseconds are processor
+//! time over the number of cores. Set `MESA_SHADER_CACHE_DISABLE=1` on such an adapter: Mesa otherwise keeps compiled
+//! shaders from run to run. Compare only figures of one run.
 //!
-//! Then what each trait costs a scene that has next to nothing of it: a speck that nobody sees.
+//! A second table has the cost of each trait for a scene that has next to nothing of it: a speck that nobody sees.
 
 use asvgf::scene::{
     self, Alpha, Environment, GpuScene, Image, Light, LightKind, Material, Mesh, Node, Scene, Texture, builtin,
@@ -18,10 +19,11 @@ use asvgf_programs::times::{Clock, Stopwatch, median};
 
 const SIZE: [u32; 2] = [320, 180];
 
-/// Frames before the first that counts: of the first one all may have changed, and only the second is known to be still.
+/// Frames before the first that counts: the first frame takes everything for changed, and only the second knows the
+/// scene to be still.
 const WARM_UP: usize = 3;
 
-/// What is left out, and what changes from frame to frame.
+/// Settings that leave something out, and the changes from frame to frame.
 struct Case {
     name: &'static str,
     specialize: Specialize,
@@ -47,7 +49,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// A trait, and how a scene gets a speck of it.
+/// A trait, and a function that adds a speck of it to a scene.
 type Trait = (&'static str, fn(&mut Scene));
 
 const TRAITS: [Trait; 7] = [
@@ -63,7 +65,7 @@ const TRAITS: [Trait; 7] = [
     ("… and light from all around", |scene| scene.environment = Some(Environment::uniform([1e-3; 3]))),
 ];
 
-/// A material with a white image.
+/// Returns a material with a white image.
 fn textured(scene: &mut Scene) -> Material {
     scene.images.push(Image { name: "white".into(), width: 1, height: 1, texels: vec![[255; 4]] });
     Material { base_color_texture: Some(Texture::new(scene.images.len() - 1)), ..Default::default() }
@@ -95,7 +97,7 @@ fn main() {
     for name in ["cornell", "pillars", "textured"] {
         println!("\n{name:<30}{:>11}{:>13}{:>9}{:>16}", "dispatches", "bytes/pixel", "ms", "first frame, ms");
         for case in cases() {
-            // A device of its own: lavapipe forgets shaders when a device has many.
+            // Each trait gets its own device, because lavapipe forgets shaders if a device has many.
             let gpu = Gpu::new().expect("there was an adapter");
             println!("{:<30}{}", case.name, row(&gpu, scene_of(name, case.animation), &case, frames));
         }
@@ -114,7 +116,7 @@ fn main() {
     }
 }
 
-/// A built-in scene, or the one with textures.
+/// Returns a built-in scene, or the one with textures.
 fn scene_of(name: &str, animation: &str) -> Scene {
     builtin::scene(name, animation).unwrap_or_else(|| {
         let room = repository().join("assets/textured/room.glb");
@@ -122,7 +124,7 @@ fn scene_of(name: &str, animation: &str) -> Scene {
     })
 }
 
-/// Dispatches, bytes per pixel, milliseconds of a frame and of the first.
+/// Measures dispatches, bytes per pixel, and milliseconds of a frame and of the first frame.
 fn row(gpu: &Gpu, scene: Scene, case: &Case, frames: usize) -> String {
     let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).expect("it fits");
     let settings = Settings { filter: case.filter.clone(), ..Settings::adaptive() };
@@ -132,7 +134,7 @@ fn row(gpu: &Gpu, scene: Scene, case: &Case, frames: usize) -> String {
     let mut compiled = 0.0;
     let mut times = Vec::new();
     for index in 0..WARM_UP + frames {
-        // The file has a camera that moves, and lamps of which one blinks here.
+        // The file has a camera that moves, and lamps; one lamp blinks here.
         let still = case.animation == "static";
         let mut pose = scene.pose(Some(0), if still { 0.0 } else { index as f32 / 30.0 });
         if case.animation == "move-light" && index % 2 == 1 {

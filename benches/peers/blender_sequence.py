@@ -1,10 +1,10 @@
-"""A short animation by Blender's Cycles, with the passes that `denoise` reads, as Cycles' own denoiser shows it, and with references.
+"""Renders a short animation with Blender's Cycles: the passes that `denoise` reads, the result of Cycles' own denoiser, and references.
 
 usage: python blender_sequence.py OUT [--samples 1] [--reference 1024] [--frames 12] [--size 160x90]
 needs: Python 3.11, pip install bpy==5.0.1 OpenEXR numpy; on Debian libxkbcommon0 libsm6 libice6 libxi6 libxxf86vm1 libxfixes3 libgl1 libegl1
 
-Writes OUT/frames/0001.exr, … (half floats, multilayer, another seed in each frame), OUT/references/0001.exr, … and, taken from the frames, what
-Cycles' denoiser (OIDN with albedo and normals, high quality) made of them: OUT/cycles/0001.exr, …. Then:
+Writes OUT/frames/0001.exr, … (half floats, multilayer, another seed in each frame), OUT/references/0001.exr, … and OUT/cycles/0001.exr, …:
+the result of Cycles' denoiser (OIDN with albedo and normals, high quality), taken from the frames. Then:
 
 cargo run --release --example denoise -- OUT/frames --out OUT/asvgf
 cargo run --release --example score -- OUT/asvgf OUT/frames OUT/references
@@ -20,7 +20,7 @@ import OpenEXR
 
 
 def material(name, color, roughness=0.5, metallic=0.0, transmission=0.0, texture=None, scale=4.0):
-    """A principled surface, with a procedural texture for its colour."""
+    """Makes a principled surface, with a procedural texture for its colour."""
     made = bpy.data.materials.new(name)
     made.use_nodes = True
     shader = made.node_tree.nodes['Principled BSDF']
@@ -44,7 +44,7 @@ def add(kind, surface, smooth=False, **where):
 
 
 def move(thing, frames, **values):
-    """Keys of properties in the first and the last frame."""
+    """Sets keys of properties in the first and the last frame."""
     for name, (first, last) in values.items():
         for frame, value in ((1, first), (frames, last)):
             setattr(thing, name, value)
@@ -52,7 +52,7 @@ def move(thing, frames, **values):
 
 
 def build(frames):
-    """A textured floor, plastic, glass, steel, and a head that moves before a camera that moves."""
+    """Builds a textured floor, plastic, glass, steel, and a moving head before a moving camera."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     add('plane', material('floor', (0.5, 0.5, 0.5), 0.15, texture='ShaderNodeTexNoise'), size=30)
@@ -98,7 +98,7 @@ def render(scene, folder, samples, frames, first_seed, denoised):
 
 
 def take_combined(source, target):
-    """Cycles' denoiser leaves its result in Combined, and what it came from in Noisy Image."""
+    """Copies Combined, the result of Cycles' denoiser; its input is in Noisy Image."""
     channels = {}
     for part in OpenEXR.File(str(source), separate_channels=True).parts:
         channels |= {name: channel.pixels for name, channel in part.channels.items()}

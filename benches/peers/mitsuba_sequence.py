@@ -1,4 +1,4 @@
-"""A short animation by Mitsuba 3, with the passes that `denoise` reads, with references, and with where the cameras are.
+"""Renders a short animation with Mitsuba 3: the passes that `denoise` reads, references, and the cameras.
 
 usage: python mitsuba_sequence.py OUT [--samples 1] [--reference 1024] [--frames 12] [--size 160x90]
 needs: pip install mitsuba numpy
@@ -16,12 +16,12 @@ from pathlib import Path
 import mitsuba as mi
 import numpy as np
 
-mi.set_variant('scalar_rgb')  # llvm_ad_rgb is faster, where there is an LLVM
+mi.set_variant('scalar_rgb')  # llvm_ad_rgb is faster if LLVM is installed
 FOV = 50.0  # horizontal, in degrees
 
 
 def camera(frame, frames):
-    """Where it stands, and what it looks at."""
+    """Returns the camera's position and its target."""
     t = frame / max(frames - 1, 1)
     return np.array([-0.6 + 1.2 * t, 0.4, 3.6]), np.array([0.1 * t, -0.1, 0.0])
 
@@ -41,7 +41,7 @@ def scene(frame, frames, size):
         'film': {'type': 'hdrfilm', 'width': size[0], 'height': size[1], 'rfilter': {'type': 'box'}, 'pixel_format': 'rgb', 'component_format': 'float32'},
         'sampler': {'type': 'independent'},
     }
-    # The first names of `aovs` are the user's own: these are known to `denoise`.
+    # The user chooses the first part of each name of `aovs`: `denoise` knows these.
     box['integrator'] = {
         'type': 'aov',
         'aovs': 'albedo:albedo,nn:sh_normal,dd:depth,id:shape_index,pp:position',
@@ -53,7 +53,7 @@ def scene(frame, frames, size):
 
 
 def axes(frame, frames):
-    """Where the camera stands, and its directions forward, right and up."""
+    """Returns the camera's position, and its directions forward, right and up."""
     eye, target = camera(frame, frames)
     forward = (target - eye) / np.linalg.norm(target - eye)
     right = np.cross(forward, [0, 1, 0])
@@ -62,7 +62,7 @@ def axes(frame, frames):
 
 
 def project(points, frame, frames, size):
-    """The pixel that shows a point, x right, y down."""
+    """Returns the pixel that shows a point, x right, y down."""
     eye, forward, right, up = axes(frame, frames)
     offset = points - eye
     half = math.tan(math.radians(FOV / 2)) * (offset @ forward)
@@ -72,7 +72,7 @@ def project(points, frame, frames, size):
 
 
 def with_motion(bitmap, frame, frames, size):
-    """Mitsuba has no motion vectors: they follow from positions, from where cameras stood, and from what moved by how much."""
+    """Adds motion vectors, which Mitsuba lacks: they follow from positions, from the cameras, and from the ball's movement."""
     names = [bitmap.struct_()[i].name for i in range(bitmap.channel_count())]
     image = np.array(bitmap)
     channel = lambda *wanted: np.stack([image[..., names.index(name)] for name in wanted], -1).astype(np.float64)
@@ -103,7 +103,7 @@ def main():
     for frame in range(asked.frames):
         made = scene(frame, asked.frames, size)
         for folder, samples, seed in zip(folders, (asked.samples, asked.reference), (0, 10_000)):
-            # Another seed in each frame, or noise stands still and no average over time lessens it.
+            # Each frame takes another seed; otherwise noise stands still, and no average over time reduces it.
             if samples > 0:
                 mi.render(made, spp=samples, seed=seed + frame)
                 bitmap = made.sensors()[0].film().bitmap()

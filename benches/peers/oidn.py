@@ -1,11 +1,11 @@
-"""Intel Open Image Denoise on the sequences that `report --sequences` writes, as baselines for `report --baseline`.
+"""Runs Intel Open Image Denoise on the sequences that `report --sequences` writes, as baselines for `report --baseline`.
 
 usage: python oidn.py SEQUENCES OUT
 needs: pip install pyoidn numpy OpenEXR
 
 SEQUENCES is report's DIR/sequences. Writes OUT/NAME/SEQUENCE/denoised_0022.exr, … and times.txt for NAME in oidn-fast, oidn-balanced,
-oidn-high, and average-oidn-high: the same on top of a moving average along the motion, of which the times know nothing. What
-surfaces emit is taken out before and put back after, or small lamps would be blurred over their surroundings.
+oidn-high, and average-oidn-high, which filters a moving average along the motion; the times exclude that average. The emission of
+surfaces is subtracted before and added after, because OIDN would otherwise blur small lamps over their surroundings.
 """
 import os
 import sys
@@ -20,7 +20,7 @@ ALPHA = 0.2
 
 
 def read(path):
-    """The layers of a frame, by name; the colour's is ''."""
+    """Reads the layers of a frame, by name; the colour's name is ''."""
     channels = OpenEXR.File(str(path), separate_channels=True).channels()
     layer = lambda name, axes: np.stack([channels[f'{name}.{a}' if name else a].pixels for a in axes], -1).astype(np.float32)
     wanted = {'': 'RGB', 'albedo': 'RGB', 'emission': 'RGB', 'normal': 'XYZ', 'motion': 'XY', 'id': 'I'}
@@ -31,7 +31,7 @@ def read(path):
 
 
 def average(frame, before, history):
-    """Blends a frame with what its surfaces were in the last one; new surfaces start anew."""
+    """Blends a frame with its surfaces' history; new surfaces start anew."""
     color = frame['']
     if history is None:
         return color
@@ -57,7 +57,8 @@ def run(folder, out, quality, averaged):
         filtered = lambda: denoise(np.ascontiguousarray(history), **guides, hdr=True, quality=quality)
         if not times:
             filtered()  # warms up
-        # OIDN has NumPy's images on the processor: the time of all threads over the cores, which other work disturbs less.
+        # OIDN shares NumPy's images on the processor. The time is that of all threads over the cores, because other
+        # work disturbs it less.
         start = time.process_time()
         image = filtered()
         times.append(1e3 * (time.process_time() - start) / os.cpu_count())
