@@ -1,4 +1,4 @@
-//! Makes the corpora that fuzzing starts from: `cargo run --example seeds -- FOLDER_OF_SCENES`.
+//! Makes the corpora for the start of fuzzing: `cargo run --example seeds -- FOLDER_OF_SCENES`.
 
 use asvgf::image_io::{Channels, write_exr};
 use asvgf_fuzz::NEXT_FILE;
@@ -7,7 +7,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Larger files make more of a fuzzer's work copying.
+/// Largest seed in bytes: with larger files, a fuzzer spends more of its work on copying.
 const LARGEST: u64 = 40_000;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Copies the scene files of a folder and of those in it.
+/// Copies the scene files of a folder and of its subfolders.
 fn scenes(folder: &Path, corpus: &Path) -> Result<(), Box<dyn Error>> {
     let entries =
         fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<Result<Vec<PathBuf>, std::io::Error>>()?;
@@ -47,7 +47,7 @@ fn scenes(folder: &Path, corpus: &Path) -> Result<(), Box<dyn Error>> {
             Some("obj") if path.metadata()?.len() <= LARGEST => {
                 let mut bytes = fs::read(&path)?;
                 if let Ok(materials) = fs::read(path.with_extension("mtl")) {
-                    // Under the name that the target gives it.
+                    // The target gives the library this name.
                     bytes.extend(b"\nmtllib scene.mtl\n");
                     bytes.push(NEXT_FILE);
                     bytes.extend(materials);
@@ -60,7 +60,7 @@ fn scenes(folder: &Path, corpus: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Small images of few and of many channels.
+/// Writes small images of few and of many channels.
 fn images(folder: &Path) -> Result<(), Box<dyn Error>> {
     let sets: [&[&str]; 3] = [
         &["R", "G", "B"],

@@ -1,12 +1,13 @@
-//! What the fuzz targets share.
+//! Helpers that the fuzz targets share.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Stands between the files of one input.
+/// Separator between the files of one input.
 pub const NEXT_FILE: u8 = 0;
 
-/// The files of one input. GLB has zero bytes of its own, and all that it refers to may be within it.
+/// Splits one input into files. A GLB file is never split, because it has zero bytes of its own, and all its references
+/// may be within it.
 pub fn split(input: &[u8]) -> (&[u8], &[u8]) {
     if input.starts_with(b"glTF") {
         return (input, &[]);
@@ -17,7 +18,7 @@ pub fn split(input: &[u8]) -> (&[u8], &[u8]) {
     }
 }
 
-/// A file system of these files.
+/// Returns a file system of these files.
 pub fn files<const N: usize>(files: [(&str, &[u8]); N]) -> BTreeMap<PathBuf, Vec<u8>> {
     files.into_iter().map(|(name, bytes)| (name.into(), bytes.to_vec())).collect()
 }

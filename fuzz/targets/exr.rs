@@ -1,4 +1,4 @@
-//! An EXR file, the layers that the program `denoise` finds in it, and the file written again.
+//! Reads an EXR file, finds the layers of the program `denoise` in it, and writes the file again.
 #![no_main]
 
 #[allow(dead_code, reason = "shared with the programs, which use the rest")]
@@ -12,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// A file of this process alone, in memory where there is a file system for that.
+/// File of this process alone, in memory if there is a file system for that.
 static FILE: LazyLock<PathBuf> = LazyLock::new(|| {
     let root = if Path::new("/dev/shm").is_dir() { PathBuf::from("/dev/shm") } else { std::env::temp_dir() };
     root.join(format!("asvgf-fuzz-{}.exr", std::process::id()))
@@ -32,7 +32,7 @@ fuzz_target!(|input: &[u8]| {
     for (layer, place) in Layer::ALL.into_iter().zip(&places.of) {
         assert!(place.as_ref().is_none_or(|place| place.channels.len() == layer.components().len()));
     }
-    // As `denoise` writes it, with and without all else: either works, or says why not.
+    // Writing as `denoise` does it, with and without the other channels, either works or returns a reason.
     let first = &image.channels[0];
     let _ = file.with_channels(&first.0, &[("R".to_owned(), first.1.clone())]).write(&*FILE);
     file.replace(&image.channels[..1]);

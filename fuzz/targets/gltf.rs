@@ -1,4 +1,5 @@
-//! A glTF file, as JSON or as GLB, and, behind the first zero byte of JSON, the file `scene.bin` or `scene.png` that it refers to.
+//! Reads a glTF file, as JSON or as GLB. Behind the first zero byte of JSON follows its file `scene.bin` or
+//! `scene.png`.
 #![no_main]
 
 use asvgf::scene;

@@ -1,4 +1,4 @@
-//! An OBJ file and, behind the first zero byte, its material library `scene.mtl`.
+//! Reads an OBJ file. Behind the first zero byte follows its material library `scene.mtl`.
 #![no_main]
 
 use asvgf::scene;
