@@ -1,10 +1,10 @@
-//! What command lines have in common: values as text, and what is wrong with them.
+//! Parts that all command lines share: values as text, and errors of usage.
 
 use asvgf::{Setting, SettingKind, Settings};
 use std::fmt;
 use std::ops::RangeInclusive;
 
-/// What is wrong with the command line.
+/// An error of usage: says which argument is wrong, and why.
 #[derive(Debug)]
 pub struct Usage(pub String);
 
@@ -22,7 +22,7 @@ impl From<lexopt::Error> for Usage {
     }
 }
 
-/// The file formats.
+/// File formats of images.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Format {
     Png,
@@ -50,7 +50,7 @@ impl Value {
         value.ok_or_else(|| self.wrong(format!("must be a number from {} to {}", range.start(), range.end())))
     }
 
-    /// Gives a setting of the denoiser this value, a number in its own range.
+    /// Sets a setting of the denoiser to this value, a number within the setting's range.
     pub fn set(&self, setting: &str, settings: &mut Settings) -> Result<(), Usage> {
         match Setting::named(setting).map(|setting| &setting.kind) {
             Some(SettingKind::Number { range, field, .. }) => {
@@ -62,7 +62,7 @@ impl Value {
         Ok(())
     }
 
-    /// The constant, or `None` where α is to be adaptive.
+    /// Returns the constant, or `None` for an adaptive α.
     pub fn alpha(&self) -> Result<Option<f32>, Usage> {
         match (self.text.as_str(), self.text.strip_prefix("constant:")) {
             ("adaptive", _) => Ok(None),
@@ -81,7 +81,7 @@ impl Value {
         found.ok_or_else(|| self.wrong(format!("must be one of {}", names.join(", "))))
     }
 
-    /// The items between commas, each once.
+    /// Returns the items between commas, each once.
     pub fn list<T: PartialEq>(&self, item: impl Fn(&Self) -> Result<T, Usage>) -> Result<Vec<T>, Usage> {
         let mut items = Vec::new();
         for text in self.text.split(',') {

@@ -5,7 +5,7 @@ use crate::times::{Clock, PassTimes, Stopwatch};
 use asvgf::wgpu::{CommandEncoder, TextureFormat, TextureView};
 use asvgf::{Denoiser, DenoiserDescriptor, Error, Pass, Settings, View, ViewOptions};
 
-/// What the denoiser calls after each pass, so that it can be submitted by itself.
+/// Callback that the denoiser calls after each pass, so that the caller can submit each pass by itself.
 pub type After<'a> = &'a mut dyn FnMut(&Pass, &mut CommandEncoder);
 
 pub struct Film<'a> {
@@ -22,7 +22,7 @@ impl<'a> Film<'a> {
         Self::of(gpu, DenoiserDescriptor { size, settings, views: true, ..Default::default() })
     }
 
-    /// With a denoiser of a kind of its own.
+    /// Makes a film with a denoiser of this descriptor.
     pub fn of(gpu: &'a Gpu, descriptor: DenoiserDescriptor) -> Result<Self, Error> {
         let clock = Clock::of(gpu);
         let size = descriptor.size;
@@ -37,7 +37,7 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// Submits a frame that is recorded into the target, and waits for it.
+    /// Submits a frame whose recording writes the target, and waits for it.
     pub fn expose(
         &mut self,
         record: impl FnOnce(&mut Denoiser, &mut CommandEncoder, &TextureView, After<'_>) -> Result<(), Error>,
@@ -61,13 +61,13 @@ impl<'a> Film<'a> {
         Ok(self.denoiser.take_times().map_or(times, |stamped| stamped.passes))
     }
 
-    /// An image of the last frame as numbers.
+    /// Returns an image of the last frame as numbers.
     pub fn numbers(&mut self, view: View) -> Result<Vec<[f32; 3]>, Error> {
         self.show(view, ViewOptions::default(), &self.numbers.clone())?;
         Ok(self.gpu.read_colors(&self.numbers))
     }
 
-    /// An image of the last frame as a picture.
+    /// Returns an image of the last frame as a picture.
     pub fn picture(&mut self, view: View, exposure: f32) -> Result<Vec<[u8; 4]>, Error> {
         self.show(view, ViewOptions { exposure, range: view.default_range() }, &self.picture.clone())?;
         Ok(self.gpu.read(&self.picture).as_chunks::<4>().0.to_vec())

@@ -1,16 +1,16 @@
-//! What a host without a window needs around the denoiser: a device, a target texture, and its pixels back.
+//! Everything that a host without a window needs beside the denoiser: a device, a target texture, and its pixels back.
 
 use asvgf::wgpu::{self, TextureFormat, TextureUsages};
 use std::fmt;
 
-/// A device of one's own.
+/// A device of the program's own.
 pub struct Gpu {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
     pub adapter: wgpu::AdapterInfo,
 }
 
-/// Why there is no device, with what to do.
+/// Reason for the lack of a device, with a remedy.
 #[derive(Debug)]
 pub struct NoGpu(String);
 
@@ -29,9 +29,9 @@ impl fmt::Display for NoGpu {
 }
 
 impl Gpu {
-    /// Asks for no more than every WebGPU device has, and for timestamps where there are any.
+    /// Requests only the features of every WebGPU device, and timestamps if the adapter has them.
     pub fn new() -> Result<Self, NoGpu> {
-        // OpenGL lacks storage textures of some of the formats; WGPU_BACKEND may still ask for it.
+        // OpenGL lacks storage textures of some of the formats; WGPU_BACKEND may still select it.
         let backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends,
@@ -42,7 +42,7 @@ impl Gpu {
             ..Default::default()
         };
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|e| NoGpu(e.to_string()))?;
-        // Large scenes and images need more than the least that WebGPU promises.
+        // Large scenes and images need more than WebGPU's guaranteed minimum.
         let limits = wgpu::Limits {
             max_buffer_size: adapter.limits().max_buffer_size,
             max_storage_buffer_binding_size: adapter.limits().max_storage_buffer_binding_size,
@@ -55,12 +55,12 @@ impl Gpu {
             ..Default::default()
         }))
         .map_err(|e| NoGpu(e.to_string()))?;
-        // Out of memory, mostly: a command can only say so and end.
+        // Such an error is mostly out of memory: a command can only report it and end.
         device.on_uncaptured_error(std::sync::Arc::new(|error| fail(&error)));
         Ok(Self { device, queue, adapter: adapter.get_info() })
     }
 
-    /// A texture that the denoiser can write to and that can be read back.
+    /// Returns a texture that the denoiser can write and the host can read back.
     pub fn target(&self, size: [u32; 2], format: TextureFormat) -> wgpu::TextureView {
         self.device
             .create_texture(&wgpu::TextureDescriptor {
@@ -104,14 +104,14 @@ impl Gpu {
         bytes.chunks(padded as usize).flat_map(|r| &r[..row as usize]).copied().collect()
     }
 
-    /// Waits until everything that was submitted is done.
+    /// Waits until the GPU has done all submitted work.
     pub fn wait(&self) {
         if let Err(error) = self.device.poll(wgpu::PollType::wait_indefinitely()) {
             fail(&error);
         }
     }
 
-    /// The linear colours of an rgba32float target.
+    /// Returns the linear colours of an rgba32float target.
     pub fn read_colors(&self, target: &wgpu::TextureView) -> Vec<[f32; 3]> {
         let bytes = self.read(target);
         let channel = |b: &[u8]| f32::from_le_bytes([b[0], b[1], b[2], b[3]]);

@@ -1,4 +1,4 @@
-//! How programs speak and end, and where they find the repository.
+//! Output and exit status of the programs, and the place of the repository.
 
 use crate::arguments::Usage;
 use std::error::Error;
@@ -6,7 +6,7 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
 
-/// The exit status of a program: 0 if it is done, 1 if it failed, 2 if it was used wrongly. Prints the error.
+/// Returns the exit status of a program: 0 if it is done, 1 if it failed, 2 after wrong usage. Prints the error.
 pub fn exit(result: Result<(), Box<dyn Error>>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -21,12 +21,12 @@ pub fn exit(result: Result<(), Box<dyn Error>>) -> ExitCode {
     }
 }
 
-/// Prints to standard output. A reader that has seen enough and closes it, such as `head`, is no error.
+/// Prints to standard output. A reader such as `head`, which closes the pipe after enough lines, causes no error.
 pub fn say(text: &str) {
     let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
-/// The repository: where the program was built or, if it was carried to another machine, the current folder.
+/// Returns the repository: the folder of the build or, on another machine, the current folder.
 pub fn repository() -> &'static Path {
     let built = Path::new(env!("CARGO_MANIFEST_DIR")).parent().filter(|path| path.is_dir());
     built.unwrap_or(Path::new("."))

@@ -1,4 +1,4 @@
-//! The scene that is rendered: loaded, lit, animated and seen by a camera.
+//! The scene to render: loaded, lit, animated and seen by a camera.
 
 use crate::arguments::Usage;
 use crate::render::options::{Options, Source, Viewpoint};
@@ -13,10 +13,10 @@ use std::path::Path;
 /// Frames per second of the animations.
 const RATE: f64 = 30.0;
 
-/// Importer warnings that are printed one by one.
+/// Number of importer warnings to print one by one.
 const WARNINGS: usize = 20;
 
-/// A scene with the one animation that is played, and its camera.
+/// A scene with the one animation to play, and its camera.
 pub struct Stage {
     pub scene: Scene,
     viewpoint: Viewpoint,
@@ -27,7 +27,8 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Loads what the options ask for. What could not be honoured, and what was added, is told on standard error.
+    /// Loads the scene of the options. Reports on standard error the parts that the importer could not honour, and all
+    /// additions.
     pub fn load(options: &Options) -> Result<Self, Box<dyn Error>> {
         let Loaded { mut scene, warnings, .. } = read(options)?;
         tell(&warnings);
@@ -52,12 +53,12 @@ impl Stage {
         Ok(Self { scene, viewpoint: options.viewpoint, jitter: options.jitter, bounds, aspect })
     }
 
-    /// Where everything is in a frame.
+    /// Returns the pose of everything in a frame.
     pub fn pose(&self, frame: u32) -> Pose {
         self.scene.pose(Some(0), (f64::from(frame) / RATE) as f32)
     }
 
-    /// From where a frame is seen: the options first, then the scene's own camera, then one that frames the scene.
+    /// Returns the camera of a frame: from the options first, then the scene's own, then one that frames the scene.
     pub fn camera(&self, pose: &Pose, frame: u32) -> Camera {
         let own = self.scene.camera_node().and_then(|node| self.scene.camera_view(pose, node));
         let base = own.unwrap_or_else(|| framing(self.bounds, self.aspect, self.viewpoint.fov_y.unwrap_or(0.7)));
@@ -74,7 +75,7 @@ impl Stage {
     }
 }
 
-/// The scene as it is, with all its animations.
+/// Reads the scene as it is, with all its animations.
 pub fn read(options: &Options) -> Result<Loaded, Box<dyn Error>> {
     let mut loaded = match &options.source {
         Source::BuiltIn(name) => {
@@ -91,7 +92,7 @@ pub fn read(options: &Options) -> Result<Loaded, Box<dyn Error>> {
     Ok(loaded)
 }
 
-/// Prints what an importer could not honour.
+/// Prints the parts that an importer could not honour.
 fn tell(warnings: &[Warning]) {
     for warning in warnings.iter().take(WARNINGS) {
         eprintln!("warning: {}: {}", warning.element, warning.reason);
@@ -101,12 +102,12 @@ fn tell(warnings: &[Warning]) {
     }
 }
 
-/// Keeps one animation of a file: nodes that only others move are static geometry, which is faster.
+/// Keeps one animation of a file. Nodes that only other animations move become static geometry, which is faster.
 fn choose_animation(mut scene: Scene, name: Option<&str>) -> Result<Scene, Usage> {
     let chosen = match name {
         None => (!scene.animations.is_empty()).then_some(0),
         Some(name) => match scene.find_animation(name) {
-            // A file's own animation of that name comes before the word.
+            // A file's own animation with that name takes precedence over the word.
             Some(index) => Some(index),
             None if name == "static" => None,
             None => {
@@ -119,7 +120,7 @@ fn choose_animation(mut scene: Scene, name: Option<&str>) -> Result<Scene, Usage
     Ok(scene)
 }
 
-/// The animations of a file, in words.
+/// Lists the animations of a file, in words.
 fn known(scene: &Scene) -> String {
     if scene.animations.is_empty() {
         return "the file has no animations; leave the option out, or say static".into();
@@ -128,7 +129,7 @@ fn known(scene: &Scene) -> String {
     format!("the file has {}; or say static", names.collect::<Vec<_>>().join(", "))
 }
 
-/// The radical inverse: 0…1, evenly spread over any number of successive indices.
+/// Returns the radical inverse: 0…1, evenly spread over any number of successive indices.
 fn halton(index: u32, base: u32) -> f32 {
     let (mut value, mut digit, mut rest) = (0.0, 1.0, index);
     while rest > 0 {

@@ -1,4 +1,4 @@
-//! Times of passes: how they are taken, and the table of them.
+//! Times of passes: clocks, and the table.
 
 use crate::gpu::Gpu;
 use asvgf::wgpu::{DeviceType, Features};
@@ -6,26 +6,26 @@ use cpu_time::ProcessTime;
 use std::fmt::Write as _;
 use std::time::Instant;
 
-/// Frames that are not counted: shaders are compiled and caches filled during the first ones.
+/// Frames that do not count: the driver compiles shaders and fills caches during the first ones.
 const WARM_UP: usize = 3;
 
 /// One frame's passes and their milliseconds, in order.
 pub type PassTimes = Vec<(&'static str, f64)>;
 
-/// How the times of passes were taken.
+/// Clock that measures the passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Clock {
-    /// By the GPU, at the passes' boundaries.
+    /// GPU timestamps, at the passes' boundaries.
     Timestamps,
-    /// By the processor, where it is the adapter: such adapters run all passes when they are waited for, and so stamp them
-    /// wrongly.
+    /// Processor time, if the adapter is the CPU: such an adapter runs all passes when the host waits for them, and so
+    /// its timestamps are wrong.
     Processor,
-    /// By the clock on the wall, where a GPU has no timestamps.
+    /// Wall clock, if a GPU has no timestamps.
     Wall,
 }
 
 impl Clock {
-    /// The honest clock for an adapter.
+    /// Returns the clock that is honest for an adapter.
     pub fn of(gpu: &Gpu) -> Self {
         match gpu.adapter.device_type {
             DeviceType::Cpu => Self::Processor,
@@ -34,7 +34,7 @@ impl Clock {
         }
     }
 
-    /// In words.
+    /// Returns its name in words.
     pub fn name(self) -> &'static str {
         match self {
             Self::Timestamps => "GPU timestamps at the passes' boundaries",
@@ -46,9 +46,9 @@ impl Clock {
     }
 }
 
-/// Times work that is waited for, where there are no timestamps.
+/// Times work with a wait at its end, for adapters without timestamps.
 pub enum Stopwatch {
-    /// On an idle machine the time on the wall, and on a busy one disturbed less.
+    /// Equals the wall time on an idle machine; on a busy one, other work disturbs it less.
     Processor(ProcessTime),
     Wall(Instant),
 }
@@ -58,7 +58,7 @@ impl Stopwatch {
         if clock == Clock::Processor { Self::Processor(ProcessTime::now()) } else { Self::Wall(Instant::now()) }
     }
 
-    /// Milliseconds since the start.
+    /// Returns milliseconds since the start.
     pub fn read(&self) -> f64 {
         let cores = || std::thread::available_parallelism().map_or(1.0, |n| n.get() as f64);
         match self {
@@ -68,7 +68,7 @@ impl Stopwatch {
     }
 }
 
-/// Milliseconds per pass, medians over the frames; and the speed that goes with the `rays` of one frame, where some were traced.
+/// Tabulates the milliseconds per pass, medians over the frames; adds the speed if one frame traced this many `rays`.
 pub fn table(frames: &[PassTimes], rays: Option<f64>, [width, height]: [u32; 2], gpu: &Gpu) -> String {
     let skipped = WARM_UP.min(frames.len().saturating_sub(1));
     let counted = &frames[skipped..];
@@ -108,7 +108,7 @@ pub fn table(frames: &[PassTimes], rays: Option<f64>, [width, height]: [u32; 2],
     out
 }
 
-/// 0 of nothing.
+/// Returns the median, 0 for no values.
 pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;

@@ -1,6 +1,6 @@
-//! From linear radiance to a pixel, as shaders/view.wgsl does it, for images that are on the CPU.
+//! Conversion from linear radiance to a pixel for images on the CPU; shaders/view.wgsl does the same on the GPU.
 
-/// A pixel of a picture, encoded as sRGB.
+/// Returns a pixel of a picture, encoded as sRGB.
 pub fn pixel(radiance: [f32; 3], exposure: f32) -> [u8; 4] {
     let [r, g, b] = neutral(radiance.map(|x| (x * exposure).clamp(0.0, 1e6))).map(encode);
     [r, g, b, 255]

@@ -6,11 +6,11 @@ use crate::times::PassTimes;
 use asvgf::scene::GpuScene;
 use asvgf::{Camera, Error, Frame, Mode, Settings, TracerSettings};
 
-/// Most paths per pixel in one dispatch of a reference: enough to hide what a dispatch costs, and far from the seconds
+/// Most paths per pixel in one dispatch of a reference: enough to hide the cost of a dispatch, and far from the seconds
 /// after which systems take a GPU for hung.
 const BATCH: u32 = 16;
 
-/// What changes a seed so that references share no random number with the frames that they judge.
+/// Mask that changes a seed, so that references share no random number with the frames that they judge.
 const OTHER_PATHS: u32 = 0x5eed_0000;
 
 /// Renders a frame and waits for it.
@@ -24,24 +24,24 @@ pub fn render(film: &mut Film<'_>, scene: &GpuScene, camera: Camera, index: u32)
 /// A film that converges to the truth.
 pub struct Reference<'a> {
     film: Film<'a>,
-    /// Dispatches so far: each has random numbers of its own.
+    /// Dispatches so far: each has its own random numbers.
     batches: u32,
 }
 
 impl<'a> Reference<'a> {
-    /// With paths that share no random number with those that these settings trace.
+    /// Makes a reference whose paths share no random number with the paths of these settings.
     pub fn new(gpu: &'a Gpu, size: [u32; 2], settings: &Settings) -> Result<Self, Error> {
         let mut settings = Settings { mode: Mode::Reference, ..settings.clone() };
         settings.tracer.seed ^= OTHER_PATHS;
         Ok(Self { film: Film::new(gpu, size, settings)?, batches: 0 })
     }
 
-    /// The next moment is traced with the random numbers of the first.
+    /// Traces the next moment with the random numbers of the first.
     pub fn rewind(&mut self) {
         self.batches = 0;
     }
 
-    /// Traces `paths` per pixel of one moment, calling back after each batch with its paths.
+    /// Traces `paths` per pixel of one moment, and calls back after each batch with its paths.
     pub fn converge(
         &mut self,
         scene: &GpuScene,
@@ -63,8 +63,8 @@ impl<'a> Reference<'a> {
     }
 }
 
-/// Traces `paths` per pixel of one moment and denoises them, calling back after each batch with its paths. Nothing changes from batch to
-/// batch, so that histories are plain means, and the filter removes only the noise that is left in them.
+/// Traces `paths` per pixel of one moment and denoises them, and calls back after each batch with its paths. Nothing
+/// changes from batch to batch, so histories are plain means, and the filter removes only their remaining noise.
 pub fn converge_denoised(
     gpu: &Gpu,
     size: [u32; 2],
@@ -84,7 +84,7 @@ pub fn converge_denoised(
     Ok(gpu.read_colors(&film.target))
 }
 
-/// The largest batch that divides `paths`: all batches count alike in the mean, so all are of one size.
+/// Returns the largest batch that divides `paths`: all batches count alike in the mean, so all have one size.
 fn batch(paths: u32) -> u32 {
     (1..=BATCH).rev().find(|batch| paths.is_multiple_of(*batch)).unwrap_or(1)
 }

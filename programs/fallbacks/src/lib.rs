@@ -1,4 +1,4 @@
-//! A camera and light for scenes that come without: the programs and the demo show any file.
+//! Default camera and default light for scenes without, so that the programs and the demo show any file.
 
 pub mod framing;
 pub mod sky;

@@ -1,9 +1,9 @@
-//! Light for scenes that have none.
+//! Default light for scenes without any.
 
 use asvgf::scene::{Environment, Scene};
 use glam::Vec3;
 
-/// Whether nothing would be seen but black.
+/// True if the whole image would be black.
 pub fn is_dark(scene: &Scene) -> bool {
     let placed = |mesh: usize| scene.nodes.iter().any(|node| node.meshes.contains(&mesh));
     let emits = |material: usize| scene.materials.get(material).is_some_and(|m| m.emissive.iter().any(|&x| x > 0.0));
@@ -12,7 +12,7 @@ pub fn is_dark(scene: &Scene) -> bool {
     scene.environment.is_none() && !emitter && !lamp
 }
 
-/// A cloudy sky: bright above, brightest on one side so that shapes show, and a darker ground.
+/// Returns a cloudy sky: bright above, brightest on one side so that shapes show, and a darker ground.
 pub fn sky() -> Environment {
     let (width, height) = (512_u32, 256_u32);
     let brightest = Vec3::new(0.5, 0.7, 0.5).normalize();
