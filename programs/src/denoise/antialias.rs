@@ -1,9 +1,11 @@
-//! Edges and textures as a pixel's whole area shows them, from frames that see its points.
+//! Edges and textures as a pixel's whole area shows them, from frames that see only points of it.
 //!
-//! Failure: at one sample per pixel the stripes of a wall were jagged and crawled, where the renderer's own image of many samples is smooth; that was half of the
-//! whole error of a sequence. Reason: each frame's guides are of one point of each pixel, and the filter keeps to them. Rule: where the guides have an edge, a
-//! pixel is the mean of what it shows in this and in two frames to each side, followed along the motion (Korein and Badler 1983), with the weights of a tent.
-//! What a frame brings from elsewhere is limited to the colours around the pixel (Karis 2014), and counts less the farther it had to be brought.
+//! Failure: at one sample per pixel, the stripes of a wall were jagged and crawled, although the renderer's own image
+//! of many samples is smooth; that was half of the whole error of a sequence. Reason: each frame's guides belong to one
+//! point of each pixel, and the filter keeps to them. Rule: at an edge of the guides, a pixel is the mean of its
+//! colours in this frame and in two frames to each side, followed along the motion (Korein and Badler 1983), with the
+//! weights of a tent. A colour from another frame is clamped to the range of the colours around the pixel (Karis
+//! 2014), and counts less the more the clamp changes it.
 
 use crate::denoise::grid::{around, bilinear};
 use crate::denoise::inverted_motion::inverted;
@@ -12,35 +14,35 @@ use crate::sequence::Pixels;
 use crate::sequence::layers::Layer;
 use std::collections::VecDeque;
 
-/// Weights of this frame and of those beside it.
+/// Weights of this frame and of its neighbours in time.
 const TENT: [f32; 3] = [3.0, 2.0, 1.0];
 
 /// Frames to each side.
 const REACH: usize = TENT.len() - 1;
 
-/// Relative contrasts of albedo and of depth, and 1 − cosine of normals, beyond which an edge is a whole one.
+/// Relative contrasts of albedo and of depth, and 1 − cosine of normals, that make an edge a whole one.
 const CONTRAST: f32 = 0.2;
 const STEP: f32 = 0.1;
 const BEND: [f32; 2] = [0.1, 0.3];
 
-/// A frame that waits for those after it.
+/// A frame that waits for later ones.
 pub struct Held {
     /// Its place in the sequence.
     pub index: usize,
     pub image: Vec<[f32; 3]>,
-    /// The guides that the image was filtered by.
+    /// Guides of the filter for this image.
     pub pixels: Pixels,
-    /// To the frame before it, in pixels.
+    /// Motion to the frame before it, in pixels.
     pub motion: Vec<f32>,
-    /// There is no frame before it.
+    /// True if it has no frame before it.
     pub begins: bool,
 }
 
-/// Frames on their way.
+/// Queue of the frames that wait.
 pub struct Antialias {
     size: [usize; 2],
     held: VecDeque<Held>,
-    /// The next one of them to leave.
+    /// Index of the next frame that leaves the queue.
     next: usize,
 }
 
@@ -49,7 +51,7 @@ impl Antialias {
         Self { size: size.map(|side| side as usize), held: VecDeque::new(), next: 0 }
     }
 
-    /// Takes a frame, and gives those that need not wait any longer.
+    /// Takes a frame, and returns those that need not wait any longer.
     pub fn push(&mut self, frame: Held) -> Vec<(usize, Vec<[f32; 3]>)> {
         self.held.push_back(frame);
         let mut finished = Vec::new();
@@ -59,7 +61,7 @@ impl Antialias {
         finished
     }
 
-    /// Gives the rest.
+    /// Returns the rest.
     pub fn finish(&mut self) -> Vec<(usize, Vec<[f32; 3]>)> {
         let mut finished = Vec::new();
         while self.next < self.held.len() {
@@ -80,7 +82,7 @@ impl Antialias {
 
     fn smooth(&self, at: usize) -> Vec<[f32; 3]> {
         let now = &self.held[at];
-        // Where the pixels were and will be, frame by frame to each side.
+        // Follows the pixels' places to each side, frame by frame.
         let sides = [self.paths(at, false), self.paths(at, true)];
         if sides.iter().all(Vec::is_empty) {
             return now.image.clone();
@@ -108,7 +110,7 @@ impl Antialias {
                 let away: f32 = (0..3).map(|c| (there[c] - kept[c]).abs()).sum();
                 let whole: f32 = (0..3).map(|c| there[c].abs() + kept[c].abs()).sum();
                 let weight = TENT[frame.abs_diff(at)] * (1.0 - 4.0 * away / whole.max(1e-30)).max(0.0);
-                // NaN is a sky's or a miss's, and stays out.
+                // Sky and misses yield NaN, which this test keeps out.
                 if weight > 0.0 {
                     sum = std::array::from_fn(|c| sum[c] + weight * kept[c]);
                     weights += weight;
@@ -118,7 +120,7 @@ impl Antialias {
         })
     }
 
-    /// Frames to one side of one, nearest first, and where its pixels are in them.
+    /// Returns the frames to one side of a frame, nearest first, and its pixels' places in them.
     fn paths(&self, at: usize, later: bool) -> Vec<(usize, Vec<[f32; 2]>)> {
         let mut paths: Vec<(usize, Vec<[f32; 2]>)> = Vec::new();
         let mut frame = at;
@@ -145,7 +147,7 @@ impl Antialias {
         paths
     }
 
-    /// At an edge the surface in front moves, and what is behind it comes out.
+    /// Takes the motion of the nearest surface, because at an edge the front surface moves and uncovers the back.
     fn of_nearest(&self, frame: &Held, motion: &[f32]) -> Vec<[f32; 2]> {
         let depth = frame.pixels.get(Layer::Depth).unwrap_or_default();
         let (motion, _) = motion.as_chunks::<2>();
@@ -154,7 +156,7 @@ impl Antialias {
         parallel::map(motion.len(), |i| motion[nearest(i)].map(|x| if x.is_finite() { x } else { 0.0 }))
     }
 
-    /// How much of an edge of the guides there is in 3×3 pixels, 0…1.
+    /// Returns how much of an edge the guides have in 3×3 pixels, 0…1.
     fn edge(&self, frame: &Held, i: usize) -> f32 {
         let get = |layer| frame.pixels.get(layer);
         let depth = get(Layer::Depth).unwrap_or_default();

@@ -1,9 +1,10 @@
-//! An albedo that is noisy itself, denoised before it divides.
+//! Denoises an albedo that is noisy itself, before the denoiser divides by it.
 //!
-//! Failure: Cycles' albedo of a metal is that of what one path saw in it, with zeros and values above 10; light over that is noise of its own, and
-//! the metal of `blender_room` had twice the error. Reason: radiance and albedo are two random numbers of one path, and the quotient of their means is the smooth
-//! thing, not the mean of their quotients. Rule: where an albedo changes from frame to frame beyond what lies around it, it is averaged as light is,
-//! with stops that are tighter because its noise is less. What the light belies is not used at all.
+//! Failure: Cycles' albedo of a metal is that of the one surface that each path saw in it, with zeros and values above
+//! 10; light divided by it is noise of its own, and the metal of `blender_room` had twice the error. Reason: radiance
+//! and albedo are two random numbers of one path, and the quotient of their means is smooth; the mean of their
+//! quotients is not. Rule: if an albedo changes from frame to frame beyond the range around it, it is averaged as light
+//! is, with tighter stops because its noise is less. An albedo that contradicts the light is not used at all.
 
 use crate::denoise::grid::around;
 use crate::denoise::parallel;
@@ -19,29 +20,31 @@ use asvgf::{Error, FilterSettings, Gradient, Settings, Shading, Surfaces, View};
 /// σ of the luminance stop for an albedo.
 const SIGMA_LUMINANCE: f32 = 1.0;
 
-/// Pixels to each side of a splinter over which noise is counted.
+/// Pixels to each side of a splinter in which noise is counted.
 const AROUND: usize = 3;
 
-/// Pixels of a surface that may be off for any reason.
+/// Number of pixels of a surface that may be off for any reason.
 const FEW: u32 = 3;
 
-/// Of the 8 neighbours of a black pixel, those with an albedo that make it one by chance: a pixel of a line of ink has two black ones.
+/// Least number of neighbours with an albedo, of 8, that show a black pixel to be black by chance: a pixel of a line of
+/// ink has two black neighbours.
 const LONELY: usize = 7;
 
-/// Part of a surface that is off, from which on its albedo is noise in part, and wholly. Independent noise is off in one pixel of five.
+/// Parts of a surface's pixels that are off: its albedo counts as partly noise above the first, wholly above the
+/// second. Independent noise is off in one pixel of five.
 const NOISY: [f32; 2] = [0.01, 0.03];
 
-/// Denoises the albedo of a sequence, if there is any need.
+/// Denoises the albedo of a sequence, if necessary.
 pub struct CleanAlbedo<'g> {
     gpu: &'g Gpu,
     size: [u32; 2],
     film: Option<Film<'g>>,
     played: u32,
-    /// Of each pixel of the last frame, whether its albedo was not believed.
+    /// True for each pixel of the last frame whose albedo was distrusted.
     distrusted: Vec<bool>,
 }
 
-/// How a frame is seen, and how it follows the last one.
+/// The view of a frame, and its link to the last one.
 struct Frame<'a> {
     camera: Camera,
     raster: Raster,
@@ -54,7 +57,8 @@ impl<'g> CleanAlbedo<'g> {
         Self { gpu, size, film: None, played: 0, distrusted: Vec::new() }
     }
 
-    /// Cleans a frame's albedo, with what the last frame's was along the motion. Returns how far each pixel's was noise or wrong, 0…1, or nothing where none was.
+    /// Cleans a frame's albedo with the last frame's along the motion. Returns how far each pixel's was noise or wrong,
+    /// 0…1, or nothing if all were right.
     pub fn clean(
         &mut self,
         now: &mut Pixels,
@@ -87,7 +91,8 @@ impl<'g> CleanAlbedo<'g> {
             .collect())
     }
 
-    /// Gives a frame its albedo, but for surfaces that it says nothing true of: 1 for those, 0 for others, or nothing where there are none.
+    /// Gives a frame its albedo, except for surfaces whose albedo is wrong: returns 1 for those, 0 for others, or
+    /// nothing if there are none.
     fn distrust(
         &mut self,
         now: &mut Pixels,
@@ -156,7 +161,8 @@ fn settings() -> Settings {
     Settings { filter, ..Settings::adaptive() }
 }
 
-/// A lone pixel that is lit although its albedo is black takes that of its neighbours: light over almost nothing would outshine them all.
+/// Gives a lone pixel that is lit although its albedo is black the albedo of its neighbours: light divided by almost
+/// nothing would outshine them all.
 fn fill_lone_black(pixels: &Pixels, albedo: &mut [f32], size: [u32; 2]) {
     let given: Vec<[f32; 3]> = albedo.as_chunks::<3>().0.to_vec();
     let size = size.map(|side| side as usize);
@@ -166,7 +172,7 @@ fn fill_lone_black(pixels: &Pixels, albedo: &mut [f32], size: [u32; 2]) {
         let around: Vec<usize> = around(size, i, 1).collect();
         let is_bright = |&&j: &&usize| is_same(pixels, i, pixels, j) && given[j].iter().any(|&x| x >= BLACK);
         let bright: Vec<[f32; 3]> = around.iter().filter(is_bright).map(|&j| given[j]).collect();
-        // All but itself and one, at borders too.
+        // All pixels but itself and one more, at borders too.
         if bright.len() + 2 >= around.len() && !bright.is_empty() {
             let mean = |c: usize| bright.iter().map(|a| a[c]).sum::<f32>() / bright.len() as f32;
             albedo[3 * i..3 * i + 3].copy_from_slice(&[0, 1, 2].map(mean));
@@ -174,9 +180,10 @@ fn fill_lone_black(pixels: &Pixels, albedo: &mut [f32], size: [u32; 2]) {
     }
 }
 
-/// Of each pixel, the part of its surface whose albedo is noise: not a number of 0…1, black in the middle of what is not, or not within what the 3×3 pixels of
-/// the surface were in the last frame. A texture that moves stays within them. Of the whole surface that is seen in one piece: where a metal shows a wall
-/// of one colour, no pixel differs from others by chance, but paths do.
+/// Returns for each pixel the part of its surface whose albedo is noise: a number outside 0…1, black amid brighter
+/// pixels, or outside the range of the surface's 3×3 pixels in the last frame. A moving texture stays within that
+/// range. The part is counted over the whole connected surface: where a metal shows a wall of one colour, no pixel
+/// differs from others by chance, but paths do.
 pub fn noise(
     pixels: &Pixels,
     albedo: &[f32],
@@ -191,7 +198,7 @@ pub fn noise(
     let is_same = |last: &Pixels, i: usize, j: usize| is_same(pixels, i, last, j);
     let is_off = |i: usize| {
         let a = now[i];
-        // A light that reflects nothing is black by itself.
+        // A light that reflects nothing is legitimately black.
         if three(pixels, Layer::Emission, i) != [0.0; 3] {
             return false;
         }
@@ -215,7 +222,8 @@ pub fn noise(
             high = std::array::from_fn(|c| high[c].max(there[c]));
             count += 1;
         }
-        // 2 % of rounding and of sampling between pixels. Fewer than all may miss what lies between.
+        // 2 % allow for rounding and for sampling between pixels. With fewer than all nine pixels, the range may miss
+        // values in between.
         count == 9 && (0..3).any(|c| a[c] < 0.98 * low[c] - 0.02 || a[c] > 1.02 * high[c] + 0.02)
     };
     let off = parallel::map(now.len(), is_off);
@@ -224,7 +232,7 @@ pub fn noise(
         counts[surface][0] += 1;
         counts[surface][1] += u32::from(off);
     }
-    // What is seen in splinters, as the rim of a sphere, is judged by what lies around it.
+    // A splinter, such as the rim of a sphere, is judged by its surroundings.
     let nearby = |i: usize| {
         let (count, off) = around(size, i, AROUND).fold((0, 0), |(n, sum), j| (n + 1, sum + u32::from(off[j])));
         off as f32 / count as f32
@@ -239,15 +247,17 @@ pub fn noise(
 /// Pixels below which a surface is a splinter.
 const SPLINTER: u32 = 32;
 
-/// Albedo of which the filter takes no notice.
+/// Albedo that the filter ignores.
 const BLACK: f32 = 0.02;
 
-/// Part of a surface's light that comes from where its albedo is black, from which on it is not believed, and as far down as which it is not again.
+/// Part of a surface's light that comes from pixels with a black albedo: above the first, the albedo is distrusted;
+/// below the second, trusted again.
 const BELIED: [f32; 2] = [0.25, 0.1];
 
-/// Pixels whose albedo the light belies. Failure: Mitsuba's albedo of a metal sphere is 0 where it reflects a room, and 10 in its middle; light over that was
-/// 50 times too bright at the rim, and spread from there. Reason: an albedo that does not follow the light makes differences instead of taking them
-/// away. Rule: a surface that sends a quarter of its light from where its albedo is black is filtered as it is.
+/// Finds the pixels whose albedo contradicts the light. Failure: Mitsuba's albedo of a metal sphere is 0 where it
+/// reflects a room, and 10 in its middle; light divided by it was 50 times too bright at the rim, and spread from
+/// there. Reason: an albedo that does not follow the light makes differences instead of removing them. Rule: a surface
+/// that sends a quarter of its light from pixels with a black albedo is filtered undivided.
 fn distrusted(pixels: &Pixels, albedo: &[f32], surfaces: &[usize], before: impl Fn(usize) -> bool) -> Vec<bool> {
     let (albedo, _) = albedo.as_chunks::<3>();
     let light = |i: usize| {
@@ -255,7 +265,7 @@ fn distrusted(pixels: &Pixels, albedo: &[f32], surfaces: &[usize], before: impl 
         let light: f32 = (0..3).map(|c| (color[c] - emission[c]).max(0.0)).sum();
         if light.is_finite() { f64::from(light) } else { 0.0 }
     };
-    // Of each surface: all light, that from where it is black, pixels, and those that were not believed before.
+    // Sums of each surface: all light, light from black pixels, pixels, and pixels that were distrusted before.
     let mut sums = vec![[0.0_f64; 4]; surfaces.len()];
     for (i, &surface) in surfaces.iter().enumerate().filter(|(i, _)| one(pixels, Layer::Depth, *i) > 0.0) {
         let light = light(i);

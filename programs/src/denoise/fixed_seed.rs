@@ -1,11 +1,12 @@
-//! Whether a renderer takes the same random numbers in each frame.
+//! Detects a renderer that takes the same random numbers in each frame.
 
 use crate::sequence::Pixels;
 use crate::sequence::camera::Camera;
 use crate::sequence::layers::Layer;
 
-/// Whether a renderer takes the same random numbers in each frame, as those with a fixed seed do. One frame that is held tells
-/// nothing; two in a row do, until two in a row differ: a light may change in between.
+/// State of the test for a fixed seed, with which a renderer takes the same random numbers in each frame. One
+/// repetition proves nothing, because a sequence may hold a frame. Two in a row prove a fixed seed, until two frames in
+/// a row differ: a light may change in between.
 #[derive(Default)]
 pub struct FixedSeed {
     fixed: bool,
@@ -21,17 +22,17 @@ impl FixedSeed {
     }
 }
 
-/// Pixels at rest that have to show the same noise, of those with light, before it is taken to be repeated.
+/// Part of the lit pixels at rest that must show the same noise before it counts as repeated.
 const REPEATED: f32 = 0.5;
 
-/// Fewest pixels at rest that tell anything.
+/// Fewest pixels at rest for a decision.
 const FEWEST: usize = 64;
 
 /// Difference of a pixel to the mean of its neighbours, over that mean, from which on it is noise.
 const NOISY: f32 = 0.05;
 
-/// Whether a frame has the random numbers of the last one, as those of renderers with a fixed seed have: then what is at rest shows
-/// the same noise to the last bit.
+/// True if a frame has the random numbers of the last one, as from a renderer with a fixed seed: pixels at rest then
+/// show the same noise to the last bit.
 pub fn repeats_noise(last: &Pixels, now: &Pixels, width: u32, [camera, before]: [Camera; 2]) -> bool {
     let radiance = |pixels| Pixels::get(pixels, Layer::Color).unwrap_or_default();
     let (was, is) = (radiance(last), radiance(now));
@@ -42,7 +43,7 @@ pub fn repeats_noise(last: &Pixels, now: &Pixels, width: u32, [camera, before]: 
         None => camera == before,
     };
     let brightness = |i: usize| is[3 * i..3 * i + 3].iter().sum::<f32>();
-    // Between two neighbours in a row; an image without noise may well stay what it is.
+    // Compares a pixel with its two neighbours in the row, because an image without noise may well stay the same.
     let is_noisy = |i: usize| {
         let column = i as u32 % width;
         let inside = column > 0 && column + 1 < width;

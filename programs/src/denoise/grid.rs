@@ -1,13 +1,14 @@
 //! Places between pixels and around them.
 
-/// The pixels of a square around one, itself included, as far as they are in the image; `reach` to each side.
+/// Returns the pixels of a square around one, itself included, that lie within the image; `reach` is the size to each
+/// side.
 pub fn around([width, height]: [usize; 2], i: usize, reach: usize) -> impl Iterator<Item = usize> {
     let near = |at: usize, side: usize| at.saturating_sub(reach)..=(at + reach).min(side - 1);
     let columns = near(i % width, width);
     near(i / width, height).flat_map(move |y| columns.clone().map(move |x| y * width + x))
 }
 
-/// A value between four pixels; beyond the border that at the border.
+/// Interpolates a value between four pixels; beyond the border, the border's value applies.
 pub fn bilinear<const N: usize>(
     [width, height]: [usize; 2],
     [x, y]: [f32; 2],

@@ -1,13 +1,13 @@
-//! Motion the other way round.
+//! Inversion of motion.
 
 use crate::denoise::grid::bilinear;
 use crate::denoise::parallel;
 
-/// Rounds in which a motion is inverted.
+/// Iterations of the inversion.
 const ROUNDS: usize = 6;
 
-/// The motion to the next frame, n, of the motion m from there: what is at p now is at p + n then, so that n(p) = −m(p + n(p)), solved by
-/// iteration from n = −m.
+/// Returns the motion n to the next frame, given the motion m from there. A point at p now is at p + n then, so n(p) =
+/// −m(p + n(p)), solved by iteration from n = −m.
 pub fn inverted(motion: &[f32], [width, height]: [u32; 2]) -> Vec<f32> {
     let (m, _) = motion.as_chunks::<2>();
     let finite = |m: [f32; 2]| m.map(|x| if x.is_finite() { x } else { 0.0 });

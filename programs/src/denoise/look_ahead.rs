@@ -1,8 +1,8 @@
-//! Frames denoised with those before and those after them.
+//! Denoises frames with both the frames before and the frames after them.
 //!
-//! A frame of an animation has a future. Played backwards, a sequence gives each frame a second history, of what comes after it: the first frames have one
-//! at last, and where light has just changed the future knows the new light. `blend_in_time.rs` says how much of either is taken. In real time there is no
-//! future: this is for files alone.
+//! A frame of an animation has a future. A sequence played backwards gives each frame a second history, of later
+//! frames: even the first frames then have a history, and after a change of the light the future knows the new light.
+//! `blend_in_time.rs` decides the weights of the two. Real time has no future: this is for files alone.
 
 use crate::denoise::antialias::{Antialias, Held};
 use crate::denoise::blend_in_time::{Estimate, blend};
@@ -14,54 +14,54 @@ use crate::times::PassTimes;
 use asvgf::{FilterSettings, Gradient, Settings};
 use std::error::Error;
 
-/// What denoising a sequence told. Frames by their numbers.
+/// Findings of denoising a sequence. Frames are given by their numbers.
 #[derive(Default)]
 pub struct Denoised {
-    /// Of each frame, forwards.
+    /// Times of each frame of the forward run.
     pub times: Vec<PassTimes>,
-    /// The first frame that was denoised by itself, as it had the noise of the one before.
+    /// First frame that was denoised by itself, because it had the noise of the one before.
     pub repeated: Option<i64>,
-    /// Frames that were found to begin another shot.
+    /// Frames that the program found to begin another shot.
     pub cuts: Vec<i64>,
-    /// What seems wrong with the motion.
+    /// Complaint about the motion, if it seems wrong.
     pub complaint: Option<String>,
 }
 
-/// Memory that the results of a run backwards may take, in bytes.
+/// Bytes of memory that the results of a run backwards may take.
 const MEMORY: usize = 512 << 20;
 
-/// Most and fewest frames that are played backwards in one go.
+/// Fewest and most frames of one stretch that is played backwards.
 const STRETCH: [usize; 2] = [4, 64];
 
-/// Frames after a stretch with which its last frame's history begins.
+/// Number of frames beyond the end of a stretch that give its last frame a history.
 const BEYOND: usize = 12;
 
-/// Where the run backwards leaves its results.
+/// Results of the run backwards.
 struct Behind {
     /// The first frame of the stretch, and its results.
     first: usize,
     seen: Vec<Option<Estimate>>,
 }
 
-/// Where frames go.
+/// Receiver of frames.
 pub trait Sink {
-    /// A frame has been played, by its place: the film holds its images, of its past alone.
+    /// Called after a frame was played, with its place: the film holds its images, of its past alone.
     fn played(&mut self, index: usize, film: &mut Film<'_>) -> Result<(), Box<dyn Error>>;
 
-    /// A frame has been denoised.
+    /// Called after a frame was denoised.
     fn denoised(&mut self, index: usize, image: &[[f32; 3]]) -> Result<(), Box<dyn Error>>;
 }
 
-/// How frames see later ones.
+/// Settings of the view into the future.
 #[derive(Clone, Debug)]
 pub struct Ahead {
-    /// Of the run backwards.
+    /// Settings of the run backwards.
     pub settings: Settings,
-    /// Edges are those of whole pixels.
+    /// True if edges are those of whole pixels.
     pub smooth_edges: bool,
 }
 
-/// Denoises a sequence. With settings for a run backwards, frames see what comes after them.
+/// Denoises a sequence. With settings for a run backwards, frames also use later frames.
 pub fn denoise(
     film: &mut Film<'_>,
     ahead: Option<&Ahead>,
@@ -118,7 +118,8 @@ pub fn denoise(
     Ok(denoised)
 }
 
-/// The settings of a run backwards: what is repeated or known of a frame's own past says nothing of its future.
+/// Returns the settings of a run backwards: repeated paths and λ compare a frame with its past, and know nothing of its
+/// future.
 pub fn settings(forwards: &Settings) -> Settings {
     let gradient = match forwards.filter.gradient {
         Gradient::Off => Gradient::Off,
@@ -127,7 +128,7 @@ pub fn settings(forwards: &Settings) -> Settings {
     Settings { filter: FilterSettings { gradient, ..forwards.filter.clone() }, ..forwards.clone() }
 }
 
-/// Plays the stretch that begins with a frame backwards, from some frames beyond its end on.
+/// Plays the stretch from a frame on backwards, and begins some frames beyond its end.
 fn backwards(film: &mut Film<'_>, sequence: &Sequence, first: usize) -> Result<Behind, Box<dyn Error>> {
     let frames = sequence.frames();
     let bytes = (sequence.size[0] * sequence.size[1]) as usize * size_of::<[f32; 4]>();

@@ -30,7 +30,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Does what the arguments after the program's name say.
+/// Runs the program with the arguments after its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Box<dyn Error>> {
     match options::parse(arguments)? {
         Request::Help => say(options::HELP),
@@ -69,7 +69,7 @@ fn denoise(options: &Options) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The frames themselves are never written over.
+/// Refuses outputs that would overwrite the frames themselves.
 fn refuse_to_overwrite(options: &Options, sequence: &Sequence) -> Result<(), String> {
     let frames: HashSet<PathBuf> = sequence.files.iter().filter_map(|file| file.path.canonicalize().ok()).collect();
     let outputs = (0..sequence.frames()).flat_map(|index| output::paths(options, sequence, index));
@@ -80,7 +80,7 @@ fn refuse_to_overwrite(options: &Options, sequence: &Sequence) -> Result<(), Str
     }
 }
 
-/// α adapts by what there is.
+/// Returns the settings; the layers of the files decide how α adapts.
 fn settings(options: &Options, sequence: &Sequence) -> Settings {
     let gradient = match options.constant {
         Some(_) => Gradient::Off,
@@ -90,7 +90,7 @@ fn settings(options: &Options, sequence: &Sequence) -> Settings {
     };
     let mut filter = FilterSettings { gradient, ..options.preset.clone() };
     if !sequence.has_surfaces() {
-        // Without depths no plane is known to be one.
+        // Without depths, no surface is known to be a plane.
         (filter.sigma_depth, filter.sigma_foreshortening) = (1e6, 0.0);
     }
     let settings = Settings { filter, ..Settings::adaptive() };
@@ -100,7 +100,7 @@ fn settings(options: &Options, sequence: &Sequence) -> Settings {
     }
 }
 
-/// A bar of frames. It does not show where there is no terminal.
+/// Returns a bar of frames. It stays hidden without a terminal.
 fn progress(what: &'static str) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:32} {pos} of {len}  {msg}  {elapsed} gone, {eta} to go");
     let bar = ProgressBar::new(0).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));

@@ -9,7 +9,7 @@ use lexopt::ValueExt as _;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// What `--help` prints.
+/// Text that `--help` prints.
 pub const HELP: &str = "\
 Denoises a sequence of images that any path tracer has rendered.
 
@@ -92,7 +92,7 @@ written. A table of times goes to standard output.
 Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
 
-/// What can be written, and what the files are called.
+/// Outputs by the names of their files.
 const OUTPUTS: [(&str, View); 14] = [
     ("denoised", View::Denoised),
     ("lambda", View::Lambda),
@@ -110,7 +110,7 @@ const OUTPUTS: [(&str, View); 14] = [
     ("outliers", View::Outliers),
 ];
 
-/// What the command line asks for.
+/// Request of the command line.
 #[derive(Debug)]
 pub enum Request {
     Help,
@@ -122,9 +122,9 @@ pub struct Options {
     pub source: Source,
     pub out: PathBuf,
     pub in_place: bool,
-    /// Frames do not see later ones.
+    /// True if frames must not use later ones.
     pub causal: bool,
-    /// Whether edges are those of whole pixels, if that was said.
+    /// Choice of edges, if the command line has one: true for those of whole pixels.
     pub smooth_edges: Option<bool>,
     pub preset: FilterSettings,
     /// `None` for an adaptive α.
@@ -138,7 +138,7 @@ pub struct Options {
     pub exposure: f32,
 }
 
-/// How a denoised file may be compressed.
+/// Compressions of denoised files, by name.
 const COMPRESSIONS: [(&str, Compression); 10] = [
     ("none", Compression::None),
     ("rle", Compression::Rle),
@@ -171,7 +171,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
         compression: None,
         exposure: 1.0,
     };
-    // Settings by name, and what they are to be, whatever the preset.
+    // Settings by name with their values, independent of the preset.
     let mut changes = Vec::new();
     let mut parser = lexopt::Parser::from_args(arguments);
     while let Some(argument) = parser.next()? {
@@ -232,7 +232,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     Ok(Request::Denoise(Box::new(options)))
 }
 
-/// What is only said of a sequence.
+/// Values that only sequences have.
 impl Value {
     fn mapping(&self) -> Result<Mapping, Usage> {
         let parts = self.text.split_once('=').filter(|(_, name)| !name.is_empty());
@@ -243,7 +243,7 @@ impl Value {
         let known = || Layer::ALL.map(Layer::name).join(", ");
         let wrong = || self.wrong(format!("must be LAYER=NAME, with LAYER one of {}", known()));
         let (layer, names) = found.ok_or_else(wrong)?;
-        // Names may have colons themselves: only these words are taken for what the numbers are.
+        // Names may contain colons themselves: only these words count as the meaning of the numbers.
         let meanings = match layer {
             Layer::Motion => [(":up", Meaning::Upwards), (":down", Meaning::Same)],
             _ => [(":ray", Meaning::AlongRay), (":axis", Meaning::Same)],
@@ -256,7 +256,7 @@ impl Value {
     }
 
     fn range(&self) -> Result<[i64; 2], Usage> {
-        // A dash in front is a sign.
+        // A leading dash is a sign.
         let middle = self.text.char_indices().skip(1).find(|(_, c)| *c == '-').map(|(at, _)| at);
         let parts =
             middle.map_or((self.text.as_str(), self.text.as_str()), |at| (&self.text[..at], &self.text[at + 1..]));

@@ -1,4 +1,4 @@
-//! Denoised frames as files: what came in comes out, but for the noise.
+//! Denoised frames as files: all of the input except the noise.
 
 use crate::arguments::Format;
 use crate::denoise::look_ahead::Sink;
@@ -11,7 +11,7 @@ use asvgf::image_io::{self, Channels};
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-/// Writes the files that a command line asks for.
+/// Writes the files that a command line requests.
 pub struct Files<'a> {
     pub options: &'a Options,
     pub sequence: &'a Sequence,
@@ -55,13 +55,13 @@ impl Sink for Files<'_> {
     }
 }
 
-/// All files that a frame becomes.
+/// Returns all files of a frame.
 pub fn paths(options: &Options, sequence: &Sequence, index: usize) -> Vec<PathBuf> {
     let names = options.outputs.iter().flat_map(|&(name, _)| options.formats.iter().map(move |&format| (name, format)));
     names.map(|(name, format)| path(options, sequence, index, name, format)).collect()
 }
 
-/// Where an image of a frame goes.
+/// Returns the file of a frame's image.
 fn path(options: &Options, sequence: &Sequence, index: usize, name: &str, format: Format) -> PathBuf {
     let file = &sequence.files[index];
     let extension = match format {
@@ -75,7 +75,7 @@ fn path(options: &Options, sequence: &Sequence, index: usize, name: &str, format
     options.out.join(format!("{name}_{:0>4}.{extension}", file.digits))
 }
 
-/// The frame's file with other colours: as it was, or with these and its alpha alone.
+/// Writes the frame's file with other colours: with everything else as it was, or with these and its alpha alone.
 fn write_denoised(
     options: &Options,
     sequence: &Sequence,
@@ -116,7 +116,7 @@ fn write_denoised(
     Ok(())
 }
 
-/// The coverage beside a colour, by the name of its first channel, and its own name.
+/// Returns the alpha of a colour, by the name of the colour's first channel, with the alpha's own name.
 fn alpha(image: &Channels, color: &str) -> Option<(String, Vec<f32>)> {
     let front = color.rsplit_once('.').map_or(String::new(), |(front, _)| format!("{front}."));
     ["A", "a"].map(|name| format!("{front}{name}")).into_iter().find_map(|name| {

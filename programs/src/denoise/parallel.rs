@@ -2,7 +2,7 @@
 
 use std::thread;
 
-/// What a function makes of each number below a count, in order.
+/// Maps each number below a count, and keeps the order.
 pub fn map<T: Send>(count: usize, make: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let threads = thread::available_parallelism().map_or(1, Into::into);
     let share = count.div_ceil(threads).max(1);

@@ -1,4 +1,4 @@
-//! Frames of a sequence on a film, as a host with a renderer of its own hands them in, forwards or backwards in time.
+//! Plays frames of a sequence on a film, forwards or backwards in time, as a host with its own renderer hands them in.
 
 use crate::denoise::blend_in_time::Estimate;
 use crate::denoise::clean_albedo::CleanAlbedo;
@@ -13,30 +13,30 @@ use crate::sequence::{Pixels, Sequence};
 use crate::times::PassTimes;
 use asvgf::{Error, FilterSettings, Gradient, Lambda, Pairs, Settings, Shading, Surfaces, View};
 
-/// A frame that is played, and how it follows the one before.
+/// A frame to play, and its link to the one before.
 pub struct Played<'a> {
     /// Its place in the sequence.
     pub index: usize,
     pub pixels: &'a Pixels,
-    /// Whether it continues the frame that was played before.
+    /// True if it continues the frame that was played before.
     pub continues: bool,
 }
 
-/// What became of a frame.
+/// Result of a played frame.
 pub struct Exposed {
     pub estimate: Estimate,
     /// Its layers as the filter had them.
     pub shown: Pixels,
-    /// To the frame that was played before, in pixels.
+    /// Motion to the frame that was played before, in pixels.
     pub motion: Vec<f32>,
-    /// It did not continue that frame.
+    /// True if it did not continue that frame.
     pub begins: bool,
     pub times: PassTimes,
-    /// It has the noise of the frame before, as so many before it: it was denoised by itself.
+    /// True if it has the noise of the frame before, as did enough frames before it: it was denoised by itself.
     pub repeated: bool,
-    /// Hardly any of its surfaces was there in the frame before: it was denoised as the first of a shot.
+    /// True if hardly any of its surfaces was there in the frame before: it was denoised as the first of a shot.
     pub cut: bool,
-    /// Where motion leads, by all readings of it. Empty if there is nothing to tell.
+    /// Matches along the motion, for all readings of the vectors. Empty if nothing was compared.
     pub readings: Vec<Matches>,
 }
 
@@ -47,15 +47,15 @@ pub struct Player<'a, 'g> {
     backwards: bool,
     last: Option<(usize, Pixels)>,
     seed: FixedSeed,
-    /// The number of the next frame: the denoiser's numbers follow one another, whatever those of the files do.
+    /// Number of the next frame: the denoiser's numbers follow one another, whatever the files' numbers do.
     played: u32,
     albedo: CleanAlbedo<'g>,
-    /// For surfaces whose albedo is noise.
+    /// Film for surfaces whose albedo is noise.
     gloss: Option<Film<'g>>,
 }
 
-/// Part of the surfaces that are not where motion leads, from which on a frame begins another shot. Fast motion without vectors loses
-/// as much: then a history is worth nothing either.
+/// Part of lost surfaces, to which the motion does not lead, from which on a frame begins another shot. Fast motion
+/// without vectors loses as much: its history is worthless as well.
 const CUT: f64 = 0.95;
 
 impl<'a, 'g> Player<'a, 'g> {
@@ -85,7 +85,7 @@ impl<'a, 'g> Player<'a, 'g> {
             None => Vec::new(),
         };
         let repeats = last.as_ref().is_some_and(|(_, last)| repeats_noise(last, pixels, raster.size[0], cameras));
-        // Such frames are one sample, however many there are: an average of them is no better, and looks as if it were.
+        // All repeated frames are one sample: their average is no better, and only looks better.
         let repeated = self.seed.observe(repeats);
         let begins = last.is_none() || repeated || cut;
         if begins {
@@ -114,7 +114,7 @@ impl<'a, 'g> Player<'a, 'g> {
         Ok(Exposed { estimate, shown, motion, begins, times, repeated, cut, readings })
     }
 
-    /// The camera of a frame. Without depths, all is a wall in front of one that rests.
+    /// Returns the camera of a frame. Without depths, everything is a wall in front of a camera at rest.
     fn camera(&self, index: usize) -> Camera {
         if self.sequence.has_surfaces() {
             self.sequence.camera(index)
@@ -123,7 +123,7 @@ impl<'a, 'g> Player<'a, 'g> {
         }
     }
 
-    /// The motion from a frame to the one that was played before.
+    /// Returns the motion from a frame to the one that was played before.
     fn motion(&self, now: &Pixels, last: Option<&Pixels>, cameras: [Camera; 2]) -> Vec<f32> {
         let size = self.sequence.size;
         let given = if self.backwards {
@@ -142,7 +142,7 @@ impl<'a, 'g> Player<'a, 'g> {
     }
 }
 
-/// What the last frame on a film became.
+/// Returns the estimate of the last frame on a film.
 fn estimate(film: &mut Film<'_>) -> Result<Estimate, Error> {
     let lengths = film.numbers(View::HistoryLength)?.into_iter().map(|[length, ..]| length).collect();
     Ok(Estimate { image: film.numbers(View::Denoised)?, lengths })
@@ -151,8 +151,9 @@ fn estimate(film: &mut Film<'_>) -> Result<Estimate, Error> {
 /// σ of the luminance stop on gloss.
 const GLOSSY: f32 = 1.5;
 
-/// Settings for surfaces that show others. Failure: the lamp in a metal sphere was blurred to twice its size. Reason: what they show has borders of light that no
-/// guide knows, and noise that is less than that of diffuse light. Rule: a tighter stop, and no plane through the light, which overshoots at such borders.
+/// Returns settings for surfaces that show others. Failure: the lamp in a metal sphere was blurred to twice its size.
+/// Reason: reflections have borders of light that no guide knows, and less noise than diffuse light. Rule: a tighter
+/// stop, and no plane through the light, because planes overshoot at such borders.
 fn glossy(settings: &Settings) -> Settings {
     let sigma_luminance = settings.filter.sigma_luminance.min(GLOSSY);
     let filter = FilterSettings { sigma_luminance, local_linear_fit: false, ..settings.filter.clone() };

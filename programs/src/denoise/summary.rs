@@ -1,4 +1,4 @@
-//! What `denoise` says: what it found, what it takes instead of the rest, and what seemed wrong.
+//! Messages of `denoise`: its findings, its substitutes for missing data, and likely mistakes.
 
 use crate::denoise::look_ahead::{Ahead, Denoised};
 use crate::sequence::layers::Layer;
@@ -6,7 +6,7 @@ use crate::sequence::pixels::Area;
 use crate::sequence::{Break, Eye, Sequence};
 use asvgf::{Gradient, Settings};
 
-/// Before the first frame.
+/// Returns the messages before the first frame.
 pub fn before(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> String {
     let [width, height] = sequence.size;
     let (first, last) = (&sequence.files[0], &sequence.files[sequence.frames() - 1]);
@@ -53,7 +53,7 @@ fn quoted(name: &str) -> String {
     if name.is_empty() { "without a name".into() } else { name.into() }
 }
 
-/// What edges are told by, how surfaces are followed, and what makes α adapt.
+/// Describes the guides of edges, the source of motion, and the source of an adaptive α.
 fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> String {
     let edges = match (sequence.has(Layer::Normal), sequence.has_surfaces()) {
         (true, true) => "edges by normals and depth",
@@ -84,12 +84,12 @@ fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> Str
     format!("{edges}{albedo}; {followed}; {alpha}; {future}")
 }
 
-/// Whether anything tells where surfaces were: motion, or a camera that moves before them.
+/// True if motion is known: from vectors, or from a moving camera in front of known surfaces.
 fn follows(sequence: &Sequence) -> bool {
     sequence.has(Layer::Motion) || (sequence.has_surfaces() && sequence.cameras.len() > 1)
 }
 
-/// Words for why a frame begins anew.
+/// Returns the reason for a new beginning, in words.
 fn reason(broken: Break) -> &'static str {
     match broken {
         Break::Gap => "frames are missing before it",
@@ -97,7 +97,7 @@ fn reason(broken: Break) -> &'static str {
     }
 }
 
-/// What is taken where nothing was said, and what that may cost.
+/// Lists the assumptions for missing data, and their risks.
 fn notes(sequence: &Sequence) -> Vec<String> {
     let mut notes = Vec::new();
     if sequence.blank_depth {
@@ -155,7 +155,7 @@ fn notes(sequence: &Sequence) -> Vec<String> {
     notes
 }
 
-/// After the last frame.
+/// Returns the messages after the last frame.
 pub fn after(denoised: &Denoised) -> String {
     let mut out = String::new();
     if let Some(frame) = denoised.repeated {

@@ -13,7 +13,7 @@ pub struct Views {
 }
 
 impl Views {
-    /// Uploads a frame. Backwards, what is known of the last frame is of the next one here, and left out.
+    /// Uploads a frame. In a run backwards, data of the last frame belongs to the next one, and is left out.
     pub fn new(gpu: &Gpu, sequence: &Sequence, pixels: &Pixels, motion: &[f32], backwards: bool) -> Self {
         let size = sequence.size;
         let forwards = |layer: Layer| {
@@ -38,8 +38,9 @@ impl Views {
     }
 }
 
-/// The depths and albedos of what is to be filtered. A light that reflects nothing is not: its zeros would darken what lies beside
-/// it. What glows and is lit although its albedo is 0, as a mirror is where that is the diffuse one, is filtered undivided.
+/// Returns the depths and albedos for the filter. A light that reflects nothing is excluded: its zeros would darken its
+/// neighbours. A surface that glows and is lit although its albedo is 0 (a mirror, if the albedo is the diffuse one) is
+/// filtered undivided.
 fn surfaces(pixels: &Pixels, size: [u32; 2]) -> (Vec<f32>, Option<Vec<f32>>) {
     let size = size.map(|side| side as usize);
     let mut depths = pixels.get(Layer::Depth).unwrap_or_default().to_vec();
@@ -51,7 +52,7 @@ fn surfaces(pixels: &Pixels, size: [u32; 2]) -> (Vec<f32>, Option<Vec<f32>>) {
     let black = |i: usize| albedo[3 * i..3 * i + 3] == [0.0; 3];
     let sum = |image: &[f32], i: usize| image[3 * i..3 * i + 3].iter().sum::<f32>();
     for i in (0..depths.len()).filter(|&i| black(i) && sum(emission, i) != 0.0) {
-        // Of pixels like it around, as one path alone may have found nothing.
+        // Sums similar pixels around as well, because a single path may have found nothing.
         let (mut light, mut emitted) = (0.0, 0.0);
         for j in around(size, i, AROUND) {
             if black(j) {
@@ -71,10 +72,10 @@ fn surfaces(pixels: &Pixels, size: [u32; 2]) -> (Vec<f32>, Option<Vec<f32>>) {
 /// Pixels to each side.
 const AROUND: usize = 2;
 
-/// Part of the emission beyond which what comes with it is light, not rounding.
+/// Ratio of light to emission above which the light is real, and no rounding.
 const REFLECTED: f32 = 0.02;
 
-/// A layer as a texture of 32-bit floats. Three channels get a fourth, as there are no textures of three.
+/// Uploads a layer as a texture of 32-bit floats. Three channels get a fourth, because there are no textures of three.
 pub fn upload(gpu: &Gpu, size: [u32; 2], layer: Layer, samples: &[f32]) -> TextureView {
     let components = layer.components().len();
     let padded: Vec<f32>;
