@@ -8,17 +8,17 @@ use std::path::Path;
 /// Pixels between renderings.
 const GAP: usize = 2;
 
-/// What a dark scene is brightened to, and by how much at most.
+/// Mean radiance of a brightened dark scene, and the largest factor.
 const MEAN: f32 = 0.1;
 const BRIGHTEST: f32 = 8.0;
 
-/// A rendering and what to call it.
+/// A rendering and its label.
 pub struct Tile {
     pub label: String,
     pub colors: Vec<[f32; 3]>,
 }
 
-/// The factor that makes a dark rendering legible; 1 for one that is bright enough.
+/// Returns the factor that makes a dark rendering legible; 1 for one that is bright enough.
 pub fn exposure(colors: &[[f32; 3]]) -> f32 {
     let seen = colors.iter().map(|c| (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]).min(1.0));
     let mean = seen.sum::<f32>() / colors.len() as f32;
@@ -30,7 +30,7 @@ pub fn write(path: &Path, [width, height]: [u32; 2], tiles: &[Tile], exposure: f
     let (width, height) = (width as usize, height as usize);
     let columns = if width > height { 2 } else { tiles.len() };
     let rows = tiles.len().div_ceil(columns);
-    // Letters of 8 pixels are small in a large picture.
+    // Letters of 8 pixels would be small in a large picture.
     let scale = (width / 300).max(1);
     let bar = 12 * scale;
     let mut canvas = Canvas::new(columns * (width + GAP) - GAP, rows * (bar + height + GAP) - GAP);

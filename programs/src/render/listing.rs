@@ -1,10 +1,10 @@
-//! What `render` prints of scenes.
+//! Lists that `render` prints of scenes.
 
 use crate::render::options::{Options, Source};
 use asvgf::scene::{Alpha, Loaded, Material, Mesh, Scene, Texture, builtin};
 use std::fmt::Write as _;
 
-/// What can be rendered, and what is in the scene that was named.
+/// Lists the built-in scenes, and the contents of the given scene.
 pub fn list(options: &Options, loaded: &Loaded) -> String {
     let scene = &loaded.scene;
     let mut out = String::from("Built-in scenes\n");
@@ -48,7 +48,7 @@ pub fn list(options: &Options, loaded: &Loaded) -> String {
     out
 }
 
-/// A material in one line: what differs from a grey Lambertian surface.
+/// Describes a material in one line: its differences from a grey Lambertian surface.
 fn surface(material: &Material, scene: &Scene) -> String {
     let texture = |texture: Option<Texture>| match texture.and_then(|texture| scene.images.get(texture.image)) {
         Some(image) => format!(" × \"{}\" ({}×{})", image.name, image.width, image.height),
@@ -78,7 +78,7 @@ fn surface(material: &Material, scene: &Scene) -> String {
     parts.join("; ")
 }
 
-/// A mesh in one line.
+/// Describes a mesh in one line.
 fn vertices(mesh: &Mesh) -> String {
     let arrays = [
         ("normals", mesh.normals.is_empty()),

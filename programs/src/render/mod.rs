@@ -21,7 +21,7 @@ use std::error::Error;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Does what the arguments after the program's name say.
+/// Runs the program with the arguments after its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Box<dyn Error>> {
     match options::parse(arguments)? {
         Request::Help => say(options::HELP),
@@ -40,7 +40,7 @@ fn render(options: &Options) -> Result<(), Box<dyn Error>> {
     let gpu = Gpu::new()?;
     let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &stage.scene)?;
     let mut film = Film::new(&gpu, options.size, options.settings.clone())?;
-    // The other kind of α, with the same noise.
+    // The other kind of α gets the same noise.
     let mut other = options.compare.map(|_| Film::new(&gpu, options.size, other(&options.settings))).transpose()?;
     let mut reference = options.reference.map(|_| Reference::new(&gpu, options.size, &options.settings)).transpose()?;
 
@@ -104,7 +104,7 @@ fn render(options: &Options) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A bar that counts paths per pixel, as they take the time. It does not show where there is no terminal.
+/// Returns a bar that counts paths per pixel, because they take the time. It stays hidden without a terminal.
 fn progress(options: &Options) -> ProgressBar {
     let [frames, paths] = [options.frames, options.settings.tracer.samples].map(u64::from);
     let films = if options.compare.is_some() { 2 } else { 1 };
@@ -119,7 +119,7 @@ fn is_constant(settings: &Settings) -> bool {
     settings.filter.gradient == Gradient::Off
 }
 
-/// The settings that a comparison sets against these: constant where they are adaptive, and the other way round.
+/// Returns the other settings of a comparison: constant if these are adaptive, and the other way round.
 fn other(settings: &Settings) -> Settings {
     let settings = settings.clone();
     if !is_constant(&settings) {
@@ -135,7 +135,7 @@ fn other(settings: &Settings) -> Settings {
     Settings { filter, ..settings }
 }
 
-/// An error of the camera is one of the options that made it.
+/// Attributes an error of the camera to the options that made it.
 fn blame(error: asvgf::Error, viewpoint: &Viewpoint) -> Box<dyn Error> {
     match error {
         asvgf::Error::Camera { .. } if *viewpoint != Viewpoint::default() => {
@@ -145,7 +145,7 @@ fn blame(error: asvgf::Error, viewpoint: &Viewpoint) -> Box<dyn Error> {
     }
 }
 
-/// Whether an image was asked for that the scene does not have.
+/// True if a requested image does not exist in the scene.
 fn is_absent(error: &(dyn Error + 'static)) -> bool {
     matches!(error.downcast_ref(), Some(asvgf::Error::NoView { .. }))
 }
@@ -204,7 +204,7 @@ fn write_comparison<'a>(
         None => reference_in_words(options),
     };
     let tiles = [
-        // Of the constant one: the adaptive one repeats some of the last frame's paths.
+        // Shows the input of the constant α, because the adaptive one repeats some of the last frame's paths.
         Tile { label: format!("noisy, {samples} spp"), colors: constant.numbers(View::Noisy)? },
         Tile { label: format!("constant alpha {alpha}"), colors: constant.numbers(View::Denoised)? },
         Tile { label: "adaptive alpha".into(), colors: adaptive.numbers(View::Denoised)? },
@@ -214,7 +214,7 @@ fn write_comparison<'a>(
     Ok(())
 }
 
-/// The reference of a comparison: its paths per pixel, and whether it is denoised.
+/// Describes the reference of a comparison: its paths per pixel, and whether it is denoised.
 fn reference_in_words(options: &Options) -> String {
     match options.denoised_reference() {
         Some(paths) => format!("reference, {paths} spp, denoised"),

@@ -8,7 +8,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// What `--help` prints.
+/// Text that `--help` prints.
 pub const HELP: &str = "\
 Renders a path-traced scene, denoises it with A-SVGF and writes pictures.
 
@@ -88,24 +88,24 @@ A table of times goes to standard output, everything else to standard error.
 Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
 
-/// Paths per pixel of a comparison's reference, where no other number is said.
+/// Default paths per pixel of a comparison's reference.
 const REFERENCE: u32 = 64;
 
-/// What the command line asks for.
+/// Request of the command line.
 #[derive(Debug)]
 pub enum Request {
     Help,
     Render(Box<Options>),
 }
 
-/// Where a scene comes from.
+/// Source of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     BuiltIn(String),
     File(PathBuf),
 }
 
-/// What overrides the scene's own camera.
+/// Options that override the scene's own camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {
     pub eye: Option<[f64; 3]>,
@@ -128,7 +128,7 @@ pub struct Options {
     pub settings: Settings,
     pub out: PathBuf,
     pub outputs: Vec<View>,
-    /// All were asked for: those that a scene does not have are passed over.
+    /// True if `--outputs all` was given: images that a scene does not have are passed over.
     pub every_output: bool,
     pub formats: Vec<Format>,
     pub exposure: Option<f32>,
@@ -169,8 +169,8 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Paths per pixel of a reference for the comparison alone, which is denoised. `None` if there is no comparison, or if an unfiltered
-    /// reference of at least as many paths is traced anyway.
+    /// Returns the paths per pixel of a reference for the comparison alone, which is denoised. `None` if there is no
+    /// comparison, or if an unfiltered reference of at least as many paths is traced anyway.
     pub fn denoised_reference(&self) -> Option<u32> {
         self.compare.filter(|&paths| self.reference.is_none_or(|traced| traced < paths))
     }
@@ -181,7 +181,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     let mut options = Options::default();
     if arguments.is_empty() {
-        // The lamp of the built-in scenes comes back on in frame 60: the last frame but one.
+        // The lamp of the built-in scenes comes back on in frame 60, the last frame but one.
         options = Options { compare: Some(REFERENCE), start_frame: 30, ..options };
     }
     let mut filter = Filter::default();
@@ -253,14 +253,14 @@ const VALUED: [&str; 20] = [
     "up",
 ];
 
-/// What the options say about the filter, which depends on each other and not on their order.
+/// Options of the filter; they depend on one another, but not on their order.
 #[derive(Default)]
 struct Filter {
     classic: bool,
     constant: Option<f32>,
     adaptive: bool,
     gradient: Option<Gradient>,
-    /// Settings by name, and what they are to be, whatever the preset.
+    /// Settings by name with their values, independent of the preset.
     changes: Vec<(&'static str, Value)>,
     every_output: bool,
 }
@@ -296,7 +296,7 @@ impl Filter {
     }
 }
 
-/// Whether a frame with these settings has something to show.
+/// True if a frame with these settings has this image.
 fn exists(view: View, settings: &Settings) -> bool {
     match view {
         View::Gradient => settings.filter.gradient != Gradient::Off,
@@ -306,7 +306,7 @@ fn exists(view: View, settings: &Settings) -> bool {
     }
 }
 
-/// What is only said of a rendering.
+/// Values that only renderings have.
 impl Value {
     fn read(self, options: &mut Options, filter: &mut Filter) -> Result<(), Usage> {
         match self.option.as_str() {
@@ -351,7 +351,7 @@ impl Value {
     }
 
     fn size(&self) -> Result<[u32; 2], Usage> {
-        // What one device texture can be by default, and 8K in all: the denoiser takes about 300 bytes per pixel.
+        // Limits of one device texture by default, and of 8K in all: the denoiser takes about 300 bytes per pixel.
         let (side, area) = (8192, 7680 * 4320);
         let parts = self.text.split_once(['x', '×']);
         let size = parts.and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
@@ -380,7 +380,7 @@ fn scene_source(text: OsString) -> Result<Source, Usage> {
     Ok(Source::File(path))
 }
 
-/// What only shows once everything was read.
+/// Checks combinations of options, after all are read.
 fn check(options: &Options) -> Result<(), Usage> {
     let viewpoint = &options.viewpoint;
     if viewpoint.eye.is_some() && viewpoint.eye == viewpoint.target {

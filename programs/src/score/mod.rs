@@ -23,7 +23,7 @@ Over the pixels that are neither emitters nor misses, and then over the frames:
   flicker   mean |(a − a′) − (b − b′)| / mean b, ′ for the last frame, along the motion
 ";
 
-/// Does what the arguments after the program's name say.
+/// Runs the program with the arguments after its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Box<dyn Error>> {
     let arguments: Vec<PathBuf> = arguments.into_iter().map(PathBuf::from).collect();
     let scores = match arguments.as_slice() {
@@ -39,7 +39,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Box<dyn 
     Ok(())
 }
 
-/// Where frames are that may be named by one of them.
+/// Returns the folder of frames, given the folder or one of them.
 fn folder(input: &Path) -> PathBuf {
     if input.is_dir() { input.to_owned() } else { input.parent().unwrap_or(Path::new("")).to_owned() }
 }

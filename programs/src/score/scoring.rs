@@ -1,4 +1,4 @@
-//! The scores of a denoised sequence that lies in files.
+//! Scores of a denoised sequence in files.
 
 use crate::sequence::layers::{self, Layer};
 use crate::sequence::{Pixels, Sequence};
@@ -24,7 +24,7 @@ impl fmt::Display for Scores {
     }
 }
 
-/// What is known of a frame once it was read.
+/// Data of a frame that was read.
 struct Frame {
     pixels: Pixels,
     image: Vec<[f32; 3]>,
@@ -38,7 +38,8 @@ impl Frame {
     }
 }
 
-/// Scores `out/denoised_0000.exr`, …, against `references/reference_0000.exr`, …, the frames of `input`. Either may also be called as the frame is.
+/// Scores `out/denoised_0000.exr`, … against `references/reference_0000.exr`, … for the frames of `input`. A result or
+/// a reference may also have the name of its frame.
 pub fn score(out: &Path, input: &Path, references: &Path) -> Result<Scores, Box<dyn Error>> {
     let sequence = Sequence::open(input, |_| {})?;
     let mut scores = [const { Vec::new() }; 3];
@@ -69,7 +70,7 @@ fn read(sequence: &Sequence, out: &Path, references: &Path, index: usize) -> Res
     Ok(Frame { pixels, image, reference, counted })
 }
 
-/// The file of a frame in another folder: by its number, or by its name.
+/// Returns the file of a frame in another folder: by its number, or by its name.
 fn of_frame(sequence: &Sequence, folder: &Path, kind: &str, index: usize) -> Result<PathBuf, String> {
     let file = &sequence.files[index];
     let own = file.path.file_name().unwrap_or_default();
@@ -84,7 +85,7 @@ fn of_frame(sequence: &Sequence, folder: &Path, kind: &str, index: usize) -> Res
     }
 }
 
-/// The colours of a file that belongs to the sequence, over its window.
+/// Returns the colours of a file that belongs to the sequence, over its window.
 fn colors(sequence: &Sequence, path: &Path) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {
     let file = ExrFile::read(path)?;
     let (image, window) = (file.channels(), file.data_window());
@@ -100,7 +101,7 @@ fn colors(sequence: &Sequence, path: &Path) -> Result<Vec<[f32; 3]>, Box<dyn Err
     Ok((0..placed[0].len()).map(|i| [placed[0][i], placed[1][i], placed[2][i]]).collect())
 }
 
-/// For each counted pixel the one of the last frame that its motion leads to, if it is of the same object.
+/// Returns, for each counted pixel, the pixel of the last frame at the end of its motion, if it shows the same object.
 fn origins(sequence: &Sequence, now: &Frame, before: &Frame) -> Result<Vec<Option<usize>>, MetricError> {
     let pixels = now.counted.len();
     let motion = now.pixels.get(Layer::Motion).map_or_else(|| vec![[0.0; 2]; pixels], |m| m.as_chunks().0.to_vec());
