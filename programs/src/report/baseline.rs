@@ -1,4 +1,4 @@
-//! Other denoisers, whose frames lie in files.
+//! Other denoisers, given by files of their frames.
 
 use crate::report::command::Baseline;
 use crate::report::record::{Row, Run};
@@ -7,8 +7,8 @@ use crate::report::truth::{Moment, Rgb, read_colors};
 use std::error::Error;
 use std::fs;
 
-/// Scores a denoiser's frames of a sequence; `None` where there are none. Its frames had to be traced too: `traced` are the passes
-/// that took, and their milliseconds.
+/// Scores a denoiser's frames of a sequence; `None` if there are none. Adds the passes that traced its frames,
+/// `traced`, with their milliseconds.
 pub fn run(
     baseline: &Baseline,
     sequence: &str,
@@ -40,7 +40,7 @@ pub fn run(
     Ok(Some(Run { key: String::new(), rows, lag, repeats: 1, times }))
 }
 
-/// Milliseconds, one line for each frame; none where there is no such file.
+/// Reads milliseconds, one line for each frame; none if there is no such file.
 fn times(path: &std::path::Path, frames: usize) -> Result<Vec<f64>, Box<dyn Error>> {
     let Ok(text) = fs::read_to_string(path) else { return Ok(Vec::new()) };
     let times: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();

@@ -1,5 +1,5 @@
-//! What fits into a budget. Repeats are dropped first, within each run; then sizes, here; then methods, from the end of
-//! the list.
+//! Reduction of a suite to a budget. Repeats are dropped first, within each run; then the size is reduced, here; then
+//! methods are dropped, from the end of the list.
 
 use crate::gpu::Gpu;
 use crate::report::command::Command;
@@ -13,29 +13,29 @@ use std::collections::{BTreeSet, HashSet};
 use std::error::Error;
 use std::path::Path;
 
-/// No smaller: hardly anything is seen in less.
+/// Smallest size: a smaller image shows hardly anything.
 const SMALLEST: [u32; 2] = [64, 36];
 
-/// Estimates are too short by up to such a part: scenes differ.
+/// Safety factor on estimates, because scenes differ.
 const MARGIN: f64 = 1.25;
 
-/// What is still to be done, once through.
+/// Remaining work, once through.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
-    /// Methods in sequences.
+    /// Runs: methods in sequences.
     pub runs: u64,
     /// Frames of methods that filter.
     pub filtered: u64,
-    /// Paths per pixel of frames that are not filtered: of references, and of path tracing alone.
+    /// Paths per pixel of unfiltered frames: of references, and of path tracing alone.
     pub paths: u64,
-    /// Frames that are held against their references.
+    /// Frames that are compared with their references.
     pub scored: u64,
 }
 
 /// Seconds for one of each, at one size.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
-    /// What a run takes however few pixels there are: shaders are compiled.
+    /// Fixed time of a run, for any number of pixels: the driver compiles shaders.
     pub run: f64,
     pub filtered: f64,
     pub path: f64,
@@ -43,15 +43,16 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Seconds of a load at a part of the pixels: all but the runs' beginnings goes with their number.
+    /// Returns the seconds of a load at a part of the pixels: all but the fixed time of the runs is proportional to
+    /// their number.
     pub fn seconds(&self, load: &Load, part: f64) -> f64 {
         let parts = [(self.filtered, load.filtered), (self.path, load.paths), (self.scored, load.scored)];
         self.run * load.runs as f64 + part * parts.map(|(seconds, count)| seconds * count as f64).iter().sum::<f64>()
     }
 }
 
-/// The first of a size, its half, its quarter, … at which a load is done in time, at a pace that was measured at the size
-/// as it is.
+/// Returns the first of a size, its half, its quarter, … at which a load is done in time, given the pace at the full
+/// size.
 pub fn size(full: [u32; 2], seconds: f64, pace: &Pace, mut load: impl FnMut([u32; 2]) -> Load) -> [u32; 2] {
     let mut size = full;
     loop {
@@ -65,7 +66,7 @@ pub fn size(full: [u32; 2], seconds: f64, pace: &Pace, mut load: impl FnMut([u32
     }
 }
 
-/// Makes a suite smaller if all its methods do not fit into the budget once; says so in words.
+/// Makes a suite smaller if the budget does not hold all its methods once; returns the reduction in words.
 pub fn fit(command: &mut Command, gpu: &Gpu) -> Result<Option<String>, Box<dyn Error>> {
     let (full, Some(minutes)) = (command.suite.size, command.budget) else { return Ok(None) };
     let runs = command.out.join("runs");
@@ -92,7 +93,7 @@ pub fn fit(command: &mut Command, gpu: &Gpu) -> Result<Option<String>, Box<dyn E
     failure.map_or(Ok((chosen != full).then_some(dropped)), Err)
 }
 
-/// What was not kept by an earlier report.
+/// Returns the work that no earlier report has kept.
 fn load(suite: &Suite, gpu: &Gpu, runs: &Path) -> Result<Load, Box<dyn Error>> {
     let mut load = Load::default();
     for sequence in &suite.sequences {
@@ -119,7 +120,8 @@ fn load(suite: &Suite, gpu: &Gpu, runs: &Path) -> Result<Load, Box<dyn Error>> {
     Ok(load)
 }
 
-/// What was dropped of a sequence, in words, given how often each method was repeated if it was run at all.
+/// Describes the dropped parts of a sequence, given the number of repeats of each method, `None` if it was not run at
+/// all.
 pub fn shortfall(sequence: &str, runs: &[(&str, Option<u32>)], repeats: u32) -> Option<String> {
     let short = |count: Option<u32>| count.is_none_or(|count| count < repeats);
     let counts: BTreeSet<_> = runs.iter().map(|(_, count)| *count).filter(|&count| short(count)).collect();

@@ -1,4 +1,4 @@
-//! Pixels to draw plots and pictures on, with letters of its own: no font need be installed.
+//! Canvas of pixels for plots and pictures, with its own letters: no font need be installed.
 
 use asvgf::image_io::{self, ImageError};
 use font8x8::{BASIC_FONTS, GREEK_FONTS, LATIN_FONTS, UnicodeFonts as _};
@@ -28,7 +28,7 @@ impl Canvas {
         }
     }
 
-    /// Writes a line from its upper left corner on.
+    /// Writes a line, beginning at its upper left corner.
     pub fn text(&mut self, [left, top]: [i32; 2], color: [u8; 4], line: &str) {
         for (x, y) in dots(line) {
             self.set([left + x, top + y], color);
@@ -46,7 +46,7 @@ impl Canvas {
     }
 }
 
-/// The dots of a line of letters, from its upper left corner.
+/// Returns the dots of a line of letters, relative to its upper left corner.
 fn dots(line: &str) -> impl Iterator<Item = (i32, i32)> {
     line.chars().enumerate().flat_map(|(i, letter)| {
         let glyph = BASIC_FONTS.get(letter).or_else(|| GREEK_FONTS.get(letter)).or_else(|| LATIN_FONTS.get(letter));
@@ -57,7 +57,7 @@ fn dots(line: &str) -> impl Iterator<Item = (i32, i32)> {
     })
 }
 
-/// A canvas that plotters draws on.
+/// Adapter through which plotters draws on a canvas.
 pub struct Ink<'a>(pub &'a mut Canvas);
 
 impl DrawingBackend for Ink<'_> {

@@ -6,7 +6,7 @@ use lexopt::ValueExt as _;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// What `--help` prints.
+/// Text that `--help` prints.
 pub const HELP: &str = "\
 Measures error against run time, and writes tables, plots and pictures of it.
 
@@ -45,7 +45,7 @@ it stopped; references are kept in target/references.
 Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
 
-/// What the command line asks for.
+/// Request of the command line.
 pub enum Request {
     Help,
     Report(Command),
@@ -57,9 +57,9 @@ pub struct Command {
     pub budget: Option<f64>,
     pub out: PathBuf,
     pub baselines: Vec<Baseline>,
-    /// Write the frames too.
+    /// True to write the frames too.
     pub export: bool,
-    /// Measure how cost grows too.
+    /// True to measure the growth of costs too.
     pub growth: bool,
 }
 
@@ -69,7 +69,7 @@ pub struct Baseline {
     pub folder: PathBuf,
 }
 
-/// The options that have a value.
+/// Options with a value.
 const VALUED: [&str; 10] =
     ["suite", "scene", "animations", "methods", "size", "paths", "repeats", "budget", "out", "baseline"];
 
@@ -127,7 +127,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, U
     Ok(Request::Report(Command { suite, budget, out, baselines, export, growth }))
 }
 
-/// Those that are named, in their own order.
+/// Returns the named items, in their own order.
 fn chosen<T: Clone>(all: &[T], names: &Value, name: impl Fn(&T) -> &str) -> Result<Vec<T>, Usage> {
     let wanted: Vec<_> = names.text.split(',').map(str::trim).collect();
     if wanted.iter().any(|wanted| !all.iter().any(|one| name(one) == *wanted)) {
@@ -141,7 +141,7 @@ fn chosen<T: Clone>(all: &[T], names: &Value, name: impl Fn(&T) -> &str) -> Resu
 fn pixels(value: &Value) -> Result<[u32; 2], Usage> {
     let sides = value.text.split_once(['x', '×']).map(|(width, height)| [width, height].map(|side| side.parse().ok()));
     match sides {
-        // SSIM's window is 11 pixels wide; larger than 4K no film fits.
+        // SSIM's window is 11 pixels wide; films larger than 4K do not fit.
         Some([Some(width @ 11..=4096), Some(height @ 11..=4096)]) => Ok([width, height]),
         _ => Err(value.wrong("must be WIDTHxHEIGHT, as in 96x54, 11 to 4096 each")),
     }

@@ -1,4 +1,4 @@
-//! Pictures side by side, with maps of where an eye sees their errors.
+//! Pictures side by side, with maps of their errors as an eye sees them.
 
 use crate::report::canvas::{Canvas, LETTER};
 use crate::report::truth::Rgb;
@@ -11,11 +11,11 @@ const GAP: i32 = 4;
 const GREY: [u8; 4] = [24, 24, 24, 255];
 const WHITE: [u8; 4] = [235, 235, 235, 255];
 
-/// Small pictures are magnified to about so many pixels.
+/// Width in pixels to which small pictures are magnified, about.
 const WIDTH: u32 = 288;
 
-/// Writes renderings with their names, the reference last; below each but that one, with the feature `flip`, its FLIP map, and the
-/// map's mean.
+/// Writes renderings with their names, the reference last. With the feature `flip`, each but the reference has its FLIP
+/// map below it, and the map's mean.
 pub fn write(path: &Path, size: [u32; 2], tiles: &[(String, Vec<Rgb>)]) -> Result<(), Box<dyn Error>> {
     let Some((_, reference)) = tiles.last() else { return Ok(()) };
     let scale = (WIDTH / size[0]).max(1) as i32;
@@ -50,7 +50,7 @@ pub fn write(path: &Path, size: [u32; 2], tiles: &[(String, Vec<Rgb>)]) -> Resul
     Ok(canvas.save(path)?)
 }
 
-/// The factor that makes a dark rendering legible; 1 for one that is bright enough.
+/// Returns the factor that makes a dark rendering legible; 1 for one that is bright enough.
 fn exposure(colors: &[Rgb]) -> f32 {
     let seen = colors.iter().map(|c| (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]).min(1.0));
     let mean = seen.sum::<f32>() / colors.len() as f32;

@@ -1,6 +1,6 @@
 //! Lines and powers through points, by least squares.
 
-/// Slope and height at 0 of the line through points; `None` where there is no such line.
+/// Fits a line to points: returns its slope and its height at 0; `None` if there is no such line.
 pub fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let n = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));
@@ -8,7 +8,7 @@ pub fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     (points.len() >= 2 && xx > 0.0).then(|| (xy / xx, y - xy / xx * x))
 }
 
-/// factor · xᵉˣᵖᵒⁿᵉⁿᵗ.
+/// The power law factor · xᵉˣᵖᵒⁿᵉⁿᵗ.
 #[derive(Clone, Copy, Debug)]
 pub struct Power {
     pub exponent: f64,
@@ -16,7 +16,7 @@ pub struct Power {
 }
 
 impl Power {
-    /// Through positive numbers, all errors counted in parts: a line on logarithmic axes.
+    /// Fits a power law to positive numbers, with relative errors: a line on logarithmic axes.
     pub fn through(points: &[(f64, f64)]) -> Option<Self> {
         let logarithms: Vec<_> = points.iter().map(|&(x, y)| (x.ln(), y.ln())).collect();
         let (exponent, height) = line(&logarithms)?;

@@ -1,4 +1,4 @@
-//! How cost grows with pixels and with triangles.
+//! Growth of cost with pixels and with triangles.
 
 use crate::film::Film;
 use crate::gpu::Gpu;
@@ -17,25 +17,25 @@ use std::path::Path;
 /// Sizes of the image.
 const SIZES: [[u32; 2]; 5] = [[160, 90], [320, 180], [640, 360], [1280, 720], [1920, 1080]];
 
-/// Each triangle is cut into the square of one of these, up to a million.
+/// Numbers n, each for a scene in which every triangle is cut into n²: up to a million in all.
 const CUTS: [u32; 7] = [1, 2, 5, 15, 50, 100, 172];
 
-/// Size of the image of those.
+/// Size of the image for the cuts.
 const SIZE: [u32; 2] = [256, 144];
 
 /// Frames before the first that counts, and frames that do.
 const WARM_UP: u32 = 3;
 const FRAMES: u32 = 5;
 
-/// The passes that trace; all others filter.
+/// Passes that trace; all others filter.
 const TRACING: [&str; 2] = ["visibility", "trace"];
 
-/// What was measured of one size of image, or of one number of triangles.
+/// Costs at one size of image, or at one number of triangles.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Cost {
     pub size: [u32; 2],
     pub triangles: usize,
-    /// Rays go down a tree; where there are few triangles, past each of them.
+    /// True if rays go down a tree; with few triangles, rays test each of them.
     pub tree: bool,
     /// Median milliseconds of a frame.
     pub tracing: f64,
@@ -49,16 +49,17 @@ pub struct Cost {
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Growth {
-    /// Hash of everything that decides it.
+    /// Hash of everything that decides the costs.
     pub key: String,
-    /// The same scene in images of several sizes.
+    /// Costs of one scene in images of several sizes.
     pub sizes: Vec<Cost>,
-    /// Images of one size of the same scene in more and more triangles.
+    /// Costs of one image of the same scene with more and more triangles.
     pub triangles: Vec<Cost>,
 }
 
 impl Growth {
-    /// What was kept, or measured anew. Calls back before each measurement with what it is of.
+    /// Loads the costs, or measures them anew. Calls back before each measurement with its size or its number of
+    /// triangles.
     pub fn find(gpu: &Gpu, path: &Path, mut next: impl FnMut(&str)) -> Result<Self, Box<dyn Error>> {
         let key = Hash::of(&CODE)?.and_files(&["programs/src/report/growth.rs"])?.and(&gpu.adapter.name).to_string();
         if let Some(kept) = load(path).filter(|kept: &Self| kept.key == key) {
@@ -82,7 +83,7 @@ impl Growth {
 }
 
 impl Growth {
-    /// The scenes whose rays go down a tree.
+    /// Returns the costs of the scenes whose rays go down a tree.
     pub fn with_trees(&self) -> impl Iterator<Item = &Cost> {
         self.triangles.iter().filter(|cost| cost.tree)
     }

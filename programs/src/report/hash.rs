@@ -1,20 +1,21 @@
-//! Names for what was computed, from everything that decides it.
+//! Hashes that name results by everything that decides them.
 
 use crate::program::repository;
 use std::fmt::{self, Debug, Write};
 use std::path::Path;
 
-/// FNV-1a (Fowler, Noll, Vo), 64 bits: the same on every machine and with every compiler, unlike the standard library's.
+/// FNV-1a (Fowler, Noll, Vo), 64 bits: the same on every machine and with every compiler, unlike the standard library's
+/// hash.
 #[derive(Clone, Copy, Debug)]
 pub struct Hash(u64);
 
 impl Hash {
-    /// Of files and folders of this repository.
+    /// Hashes files and folders of this repository.
     pub fn of(paths: &[&str]) -> std::io::Result<Self> {
         Self(0xcbf2_9ce4_8422_2325).and_files(paths)
     }
 
-    /// Of this, and then of files and folders of this repository.
+    /// Adds files and folders of this repository to the hash.
     pub fn and_files(mut self, paths: &[&str]) -> std::io::Result<Self> {
         for path in paths {
             self.file(&repository().join(path))?;
@@ -22,7 +23,7 @@ impl Hash {
         Ok(self)
     }
 
-    /// Of a shader of this repository and all that it imports, in whatever permutation.
+    /// Hashes a shader of this repository and all its imports, of all permutations.
     pub fn of_shader(path: &str) -> std::io::Result<Self> {
         let mut files = vec![path.to_owned()];
         for next in 0.. {
@@ -37,9 +38,9 @@ impl Hash {
         Self::of(&files.iter().map(String::as_str).collect::<Vec<_>>())
     }
 
-    /// Of this, and then of what its debug output shows.
+    /// Adds the debug output of a thing to the hash.
     pub fn and(mut self, thing: &impl Debug) -> Self {
-        // Nothing is kept of the text, however long: the scenes' textures are in it.
+        // The formatter streams into the hash and keeps no text, because the scenes' textures can make it long.
         let _ = write!(self, "{thing:?};");
         self
     }
@@ -75,7 +76,7 @@ impl fmt::Display for Hash {
     }
 }
 
-/// The modules that a shader names in its imports.
+/// Returns the modules that a shader imports, by name.
 fn imports(source: &str) -> impl Iterator<Item = &str> {
     let named = source.lines().filter_map(|line| line.trim().strip_prefix("#import asvgf::"));
     named.map(|rest| rest.split("::").next().unwrap_or(rest))

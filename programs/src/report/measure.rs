@@ -1,4 +1,4 @@
-//! Sends a sequence through a method: its images, and what they took.
+//! Runs a method on a sequence: returns its images, and its times.
 
 use crate::film::Film;
 use crate::gpu::Gpu;
@@ -14,16 +14,16 @@ use asvgf::View;
 use std::error::Error;
 use std::time::{Duration, Instant};
 
-/// Frames whose times do not count: shaders are compiled and caches filled.
+/// Frames whose times do not count, because the driver compiles shaders and fills caches.
 const WARM_UP: usize = 3;
 
-/// What a method made of a sequence.
+/// Result of a method on a sequence.
 pub struct Output {
     pub run: Run,
     pub images: Vec<Vec<Rgb>>,
 }
 
-/// Errors come from the first time through, times from as many repeats as fit into `share`.
+/// Runs a method. Errors come from the first run, times from as many repeats as fit into `share`.
 pub fn run(
     gpu: &Gpu,
     suite: &Suite,
@@ -36,7 +36,7 @@ pub fn run(
     let mut film = Film::new(gpu, suite.size, method.settings.clone())?;
     let (mut images, mut rows, mut repeats) = (Vec::new(), Vec::new(), Vec::new());
     let mut all = Vec::new();
-    // The first time through warms up as well.
+    // The first run warms up as well.
     for repeat in 0..=suite.repeats {
         let begun = Instant::now();
         film.denoiser.reset();
@@ -58,7 +58,7 @@ pub fn run(
             break;
         }
     }
-    // The times of the first time through only count where there are no others.
+    // The times of the first run count only if there are no others.
     let counted = if all.len() > 1 { &all[1..] } else { &all[..] };
     for (i, row) in rows.iter_mut().enumerate() {
         row.ms = median(counted.iter().map(|times| times[i].iter().map(|(_, ms)| ms).sum()).collect());
@@ -72,7 +72,7 @@ pub fn run(
     Ok(Output { run: Run { key, rows, lag, repeats: all.len() as u32 - 1, times: repeats }, images })
 }
 
-/// Mean over the pixels that count, of an image that may not exist.
+/// Returns the mean over the counted pixels of an image that may not exist.
 fn average(numbers: Option<Vec<Rgb>>, counted: &[bool]) -> Option<f64> {
     let numbers = numbers?;
     let values = numbers.iter().zip(counted).filter(|(_, counted)| **counted);

@@ -1,16 +1,16 @@
-//! The methods that are compared, as data.
+//! The compared methods, as data.
 
 use asvgf::{Blend, FilterSettings, Gradient, Kernel, Mode, Settings, TracerSettings, Variance};
 
-/// What a method is there to show.
+/// Purpose of a method in the report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// What more paths alone would give: so many per pixel.
+    /// Path tracing alone, with this many paths per pixel: shows the gain of more paths.
     Tracing(u32),
     /// A moving average along the motion, not filtered in space.
     Average,
-    /// A constant α, in the published filter (svgf) and in the crate's own (constant): the best of each sequence is what an adaptive α
-    /// is held against.
+    /// A constant α, in the published filter (svgf) and in the crate's own (constant): the best of each sequence is the
+    /// rival of an adaptive α.
     Constant,
     /// An adaptive α.
     Adaptive,
@@ -18,7 +18,7 @@ pub enum Group {
     Iterations,
     /// The default without one of its ideas.
     Ablation,
-    /// Worse on purpose: a report that does not show it is wrong.
+    /// Deliberately worse: a report that fails to show it is wrong.
     Control,
     /// Another denoiser.
     Baseline,
@@ -31,17 +31,17 @@ pub struct Method {
     pub settings: Settings,
 }
 
-/// The name of what all others are compared with: the crate's default.
+/// Name of the method that all others are compared with: the crate's default.
 pub const DEFAULT: &str = "a-svgf";
-/// The name of path tracing at one path per pixel.
+/// Name of path tracing at one path per pixel.
 pub const ONE_PATH: &str = "1 spp";
-/// The name of the method that is worse on purpose.
+/// Name of the deliberately worse method.
 pub const CONTROL: &str = "worse on purpose";
 
-/// The constant α among which the best is searched.
+/// Candidates for the best constant α.
 pub const ALPHAS: [f32; 7] = [0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0];
 
-/// A few of each kind, and every constant α.
+/// Returns a few methods of each kind, and every constant α.
 pub fn quick() -> Vec<Method> {
     const CHOICE: [&str; 10] = [
         ONE_PATH,
@@ -59,7 +59,7 @@ pub fn quick() -> Vec<Method> {
     all().into_iter().filter(chosen).collect()
 }
 
-/// The most telling first, and what takes longest last: a budget cuts off the end.
+/// Returns all methods, the most informative first and the slowest last, because a budget cuts off the end.
 pub fn all() -> Vec<Method> {
     let mut methods = vec![adaptive(DEFAULT, FilterSettings::default())];
     methods.extend([1, 2, 4, 8, 16].map(tracing));
@@ -92,7 +92,7 @@ pub fn all() -> Vec<Method> {
 
 type Change = fn(&mut FilterSettings);
 
-/// Each idea of the default (docs/filter.md), undone.
+/// The default without one of its ideas (docs/filter.md), for each idea.
 const ABLATIONS: [(&str, Change); 16] = [
     ("without gradient", |f| f.gradient = Gradient::Off),
     ("without ratio", |f| f.history_ratio = false),
@@ -113,12 +113,12 @@ const ABLATIONS: [(&str, Change); 16] = [
     ("blend by lambda", |f| f.blend = Blend::Lambda),
     ("gradient by surface", |f| f.gradient_across_surfaces = false),
     ("signed gradient", |f| {
-        // The settings that its documentation asks for.
+        // The documentation of the signed gradient recommends these settings.
         (f.gradient_signed, f.gradient_iterations, f.gradient_dead_zone) = (true, 5, 0.1);
     }),
 ];
 
-/// So many paths per pixel, not filtered.
+/// Returns path tracing alone, with this many paths per pixel.
 fn tracing(samples: u32) -> Method {
     let tracer = TracerSettings { samples, ..Default::default() };
     let settings = Settings { mode: Mode::Noisy, tracer, ..Settings::adaptive() };
@@ -133,7 +133,7 @@ fn filter(filter: FilterSettings) -> Settings {
     Settings { filter, ..Settings::adaptive() }
 }
 
-/// The default but for one change.
+/// Returns the default with one change.
 fn with(change: impl FnOnce(&mut FilterSettings)) -> FilterSettings {
     let mut filter = FilterSettings::default();
     change(&mut filter);

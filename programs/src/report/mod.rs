@@ -1,7 +1,8 @@
 //! The program `report`: measures error against run time.
 //!
-//! [`suite`] and [`methods`] are what is measured, as data, and [`budget`] decides what there is time for. [`truth`], [`measure`], [`score`] and
-//! [`growth`] measure it, [`verdict`] concludes, and [`words`], [`plots`] and [`crops`] tell.
+//! [`suite`] and [`methods`] say what to measure, as data, and [`budget`] fits it into the time. [`truth`],
+//! [`measure`], [`score`] and [`growth`] measure it, [`verdict`] concludes, and [`words`], [`plots`] and [`crops`]
+//! present it.
 
 pub mod baseline;
 pub mod budget;
@@ -39,7 +40,7 @@ use std::time::Instant;
 use words::Context;
 use work::Work;
 
-/// Does what the arguments after the program's name say.
+/// Runs the program with the arguments after its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Box<dyn Error>> {
     match command::parse(arguments)? {
         Request::Help => say(command::HELP),

@@ -1,4 +1,4 @@
-//! How fast a suite goes on this machine, from a few frames of its first sequence.
+//! Speed of a suite on this machine, from a few frames of its first sequence.
 
 use crate::film::Film;
 use crate::gpu::Gpu;
@@ -14,11 +14,11 @@ use asvgf::{Mode, Settings, TracerSettings};
 use std::error::Error;
 use std::time::Instant;
 
-/// Frames before the first that counts, and frames that do.
+/// Frames before the first that counts, and frames that count.
 const WARM_UP: u32 = 2;
 const FRAMES: u32 = 3;
 
-/// Paths per pixel of a frame that is not filtered: enough to be what takes the time.
+/// Paths per pixel of an unfiltered frame: enough for them to dominate the time.
 const PATHS: u32 = 4;
 
 pub fn measure(gpu: &Gpu, suite: &Suite) -> Result<Pace, Box<dyn Error>> {
@@ -29,8 +29,8 @@ pub fn measure(gpu: &Gpu, suite: &Suite) -> Result<Pace, Box<dyn Error>> {
     Ok(Pace { run, filtered, path: traced / f64::from(PATHS), scored: scored(suite, image)? })
 }
 
-/// Seconds until the first frame that counts, less those of the frames before it, and seconds of a frame, on the wall's
-/// clock as a budget is; and the last frame's image.
+/// Measures the seconds until the first counted frame, less those of the frames before it, and the seconds of a frame.
+/// Both are wall time, as a budget is. Returns the last frame's image too.
 fn frame(gpu: &Gpu, suite: &Suite, settings: Settings) -> Result<(f64, f64, Vec<Rgb>), Box<dyn Error>> {
     let script = Script::load(suite, &suite.sequences[0])?;
     let mut scene = GpuScene::new(&gpu.device, &gpu.queue, &script.stage.scene)?;
@@ -52,7 +52,8 @@ fn frame(gpu: &Gpu, suite: &Suite, settings: Settings) -> Result<(f64, f64, Vec<
     Ok((before.max(0.0), each, image))
 }
 
-/// Seconds of scoring a frame: here an image is held against itself, and against the frame before, which is the same.
+/// Measures the seconds of scoring a frame: compares an image with itself, and with the frame before, which is the
+/// same.
 fn scored(suite: &Suite, image: Vec<Rgb>) -> Result<f64, Box<dyn Error>> {
     let script = Script::load(suite, &suite.sequences[0])?;
     let moment = || {

@@ -1,10 +1,10 @@
-//! What was measured, as it is kept in files.
+//! Records of measurements, as the files keep them.
 
 use crate::report::keep;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
-/// A frame of a sequence that went through a method. What does not exist is `None`.
+/// A frame of a sequence with its results for one method. A missing number is `None`.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Row {
     pub sequence: String,
@@ -26,10 +26,10 @@ pub struct Row {
     pub ms: Option<f64>,
 }
 
-/// A number of a row.
+/// Accessor of a number of a row.
 pub type Column = fn(&Row) -> Option<f64>;
 
-/// The numbers of a row, by name.
+/// Numbers of a row, by name.
 pub const COLUMNS: [(&str, Column); 11] = [
     ("rel_mse", |row| row.rel_mse),
     ("rmse", |row| row.rmse),
@@ -44,33 +44,33 @@ pub const COLUMNS: [(&str, Column); 11] = [
     ("ms", |row| row.ms),
 ];
 
-/// Frames until a step of the light has arrived, where a sequence has one.
+/// Frames until a step of the light has arrived, for sequences with one.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Settling {
-    /// Part of the step that may be left.
+    /// Part of the step that may remain.
     pub band: f64,
-    /// Within so many frames half of the pixels arrived, and nine of ten.
+    /// Frames until half of the pixels have arrived, and until nine of ten have.
     pub median: Option<u32>,
     pub ninth_decile: Option<u32>,
-    /// Share of the pixels that arrived at all.
+    /// Share of the pixels that arrive at all.
     pub arrived: f64,
 }
 
-/// A sequence that went through a method.
+/// A sequence with its results for one method.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Run {
-    /// Hash of everything that decides it.
+    /// Hash of everything that decides the run.
     pub key: String,
     pub rows: Vec<Row>,
     pub lag: Vec<Settling>,
-    /// How often times were taken.
+    /// Number of repeats for the times.
     pub repeats: u32,
     /// Milliseconds of each pass, in order, in each counted frame of each repeat.
     pub times: Vec<Vec<(String, f64)>>,
 }
 
 impl Run {
-    /// One that was kept, if everything that decides it is the same.
+    /// Loads a kept run, if everything that decides it is the same.
     pub fn load(path: &Path, key: &str) -> Option<Self> {
         keep::load(path).filter(|run: &Self| run.key == key)
     }
@@ -80,7 +80,7 @@ impl Run {
     }
 }
 
-/// A number that exists.
+/// Returns the number if it is finite.
 pub fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

@@ -1,4 +1,4 @@
-//! How far images are from the truth.
+//! Errors of images against the truth.
 
 use crate::report::record::{Row, Settling, finite};
 use crate::report::suite::TURN;
@@ -6,16 +6,17 @@ use crate::report::truth::{Moment, RELIT, Rgb};
 use asvgf::metrics::{self, MetricError, Pair};
 use std::thread;
 
-/// A ghost is looked for in what changed less than so many frames ago.
+/// Ghosts are searched for in pixels that changed fewer frames ago than this.
 const GHOST: u32 = 8;
 
 /// Bands around the new level of a light.
 const BANDS: [f64; 2] = [0.1, 0.02];
 
-/// Share of the pixels that must be relit in one frame for that to be a step of the light.
+/// Share of the pixels that one frame must relight to count as a step of the light.
 const STEP: f64 = 0.5;
 
-/// Fills in the errors of each frame, on all of the processor's cores: FLIP takes longer than a GPU's frame by far.
+/// Fills in the errors of each frame, on all of the processor's cores, because FLIP takes far longer than a GPU's
+/// frame.
 pub fn fill(rows: &mut [Row], images: &[Vec<Rgb>], moments: &[Moment], size: [u32; 2]) -> Result<(), MetricError> {
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let part = rows.len().div_ceil(cores).max(1);
@@ -27,7 +28,7 @@ pub fn fill(rows: &mut [Row], images: &[Vec<Rgb>], moments: &[Moment], size: [u3
                 frames.try_for_each(|(i, row)| fill_one(row, first + i, images, moments, size))
             })
         });
-        // All are started before the first is waited for.
+        // Collects, so that all threads start before the first join.
         let parts: Vec<_> = parts.collect();
         parts.into_iter().try_for_each(|part| part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
     })
@@ -42,8 +43,8 @@ fn fill_one(
 ) -> Result<(), MetricError> {
     let moment = &moments[i];
     let pair = Pair::new(&images[i], &moment.reference)?.counting(&moment.counted)?;
-    // Squares of the difference from the reference are those from the truth and the reference's own, as their noise is
-    // independent.
+    // Subtracts the reference's own squared error. The squared difference from the reference is the sum of the squared
+    // error and the reference's own, because their noise is independent.
     let noise = Pair::new(&moment.half, &moment.reference)?.counting(&moment.counted)?;
     row.rel_mse = finite(metrics::relative_mse(&pair) - metrics::relative_mse(&noise));
     row.rmse = finite((metrics::rmse(&pair).powi(2) - metrics::rmse(&noise).powi(2)).max(0.0).sqrt());
@@ -65,7 +66,8 @@ fn fill_one(
     Ok(())
 }
 
-/// How long the change at the turn took to arrive, where it is a step: most pixels are relit at once, and nothing moves after.
+/// Measures the lag of the change at the turn, if that is a step: most pixels are relit at once, and nothing moves
+/// after.
 pub fn lag(images: &[Vec<Rgb>], moments: &[Moment]) -> Result<Vec<Settling>, MetricError> {
     let Some(turn) = moments.iter().position(|moment| moment.index == TURN).filter(|&turn| turn > 0) else {
         return Ok(Vec::new());

@@ -1,4 +1,4 @@
-//! A sequence before anything is traced: where everything is in its frames, and how their references are called.
+//! A sequence before any tracing: the poses of its frames, and the names of their references.
 
 use crate::program::repository;
 use crate::render::options::Options as Shown;
@@ -10,18 +10,19 @@ use asvgf::{Camera, Settings};
 use std::error::Error;
 use std::path::PathBuf;
 
-/// Where references are kept between reports.
+/// Folder of references, which several reports share.
 const FOLDER: &str = "target/references";
 
-/// The shaders that decide what converges: a filter may change without them.
+/// Shaders that decide the converged image: the filter may change without them.
 const TRACERS: [&str; 2] = ["shaders/visibility.wgsl", "shaders/trace.wgsl"];
 
-/// What hands them the scene, and takes the mean. What reads scenes from files is not there: its outcome is hashed.
+/// Code that hands the scene to the shaders, and takes the mean. The readers of scenes are absent, because their result
+/// is hashed.
 const SCENE: [&str; 4] = ["programs/src/tracing.rs", "src/plan/batches.rs", "src/scene/gpu", "src/denoiser/traced.rs"];
 
 pub struct Script {
     pub stage: Stage,
-    /// Of the scene and all settings that references depend on.
+    /// Hash of the scene and of all settings that references depend on.
     pub hash: Hash,
 }
 
@@ -36,14 +37,14 @@ impl Script {
         Ok(Self { stage, hash })
     }
 
-    /// Where everything is in a frame, and from where it is seen.
+    /// Returns the pose of a frame, and its camera.
     pub fn frame(&self, index: u32) -> (Pose, Camera) {
         let pose = self.stage.pose(index);
         let camera = self.stage.camera(&pose, index);
         (pose, camera)
     }
 
-    /// The file that a frame's reference is kept in. Frames that look the same share theirs.
+    /// Returns the file of a frame's reference. Frames that look the same share theirs.
     pub fn reference(&self, pose: &Pose, camera: &Camera) -> PathBuf {
         repository().join(FOLDER).join(format!("{}.exr", self.hash.and(pose).and(camera)))
     }

@@ -1,4 +1,4 @@
-//! What is measured: sequences, methods, and how well.
+//! Suites: sequences, methods, and quality of the measurement.
 
 use crate::program::repository;
 use crate::render::options::Source;
@@ -6,17 +6,17 @@ use crate::report::methods::{self, Method};
 use asvgf::scene::builtin::ANIMATIONS;
 use std::path::Path;
 
-/// The built-in scenes' lamps and paths turn in this frame: blinking ones go out, moving ones go back.
+/// Frame of the turn of the built-in scenes' lamps and paths: blinking lamps go out, moving ones go back.
 pub const TURN: u32 = 30;
 
-/// The scene with textures, a mask and gloss.
+/// Scene with textures, a mask and gloss.
 const TEXTURED: &str = "assets/textured/room.glb";
 
-/// The scenes and their animations, the most telling first.
+/// Scenes and their animations, the most informative first.
 const SCENES: [(&str, &[&str]); 3] =
     [("cornell", &ANIMATIONS), ("pillars", &ANIMATIONS), ("textured", &["static", "move-camera"])];
 
-/// So many of a scene's animations are in the quick suite.
+/// Number of a scene's animations in the quick suite.
 const QUICK: usize = 3;
 
 pub struct Suite {
@@ -26,7 +26,7 @@ pub struct Suite {
     pub frames: u32,
     /// Paths per pixel of a reference.
     pub paths: u32,
-    /// How often times are taken.
+    /// Number of repeats for the times.
     pub repeats: u32,
     pub sequences: Vec<Sequence>,
     pub methods: Vec<Method>,
@@ -35,14 +35,14 @@ pub struct Suite {
 /// Frames of one scene with one animation.
 #[derive(Clone, Debug)]
 pub struct Sequence {
-    /// Also the name of its files.
+    /// Name, also of its files.
     pub name: String,
     pub source: Source,
     pub animation: Option<String>,
 }
 
 impl Suite {
-    /// For a look, and for software adapters: minutes.
+    /// Returns the suite for a first look, and for software adapters: takes minutes.
     pub fn quick() -> Self {
         Self {
             name: "quick",
@@ -55,7 +55,7 @@ impl Suite {
         }
     }
 
-    /// For the record.
+    /// Returns the suite for the record.
     pub fn full() -> Self {
         Self {
             name: "full",
@@ -68,7 +68,7 @@ impl Suite {
         }
     }
 
-    /// Keeps the sequences of one scene; of a file there is one.
+    /// Keeps the sequences of one scene; a file has one sequence.
     pub fn only(&mut self, scene: &str) {
         let known = SCENES.iter().find(|(name, _)| *name == scene);
         self.sequences = match known {
@@ -87,13 +87,13 @@ impl Suite {
         };
     }
 
-    /// Number of the first frame.
+    /// Returns the number of the first frame.
     pub fn first(&self) -> u32 {
         TURN - self.frames / 2
     }
 }
 
-/// A scene with each of some animations.
+/// Returns the sequences of a scene, one for each animation.
 fn sequences(scene: &str, animations: &[&str]) -> Vec<Sequence> {
     let source = match scene {
         "textured" => Source::File(repository().join(TEXTURED)),

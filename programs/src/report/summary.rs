@@ -1,4 +1,4 @@
-//! What a run comes to: means over its frames, and times.
+//! Summary of a run: means over its frames, and times.
 
 use crate::report::methods::Group;
 use crate::report::record::{Column, Row, Run, Settling};
@@ -36,24 +36,24 @@ impl Summary {
         }
     }
 
-    /// Mean of a column over the frames that have it.
+    /// Returns the mean of a column over the frames that have it.
     pub fn mean(&self, column: Column) -> Option<f64> {
         let values: Vec<f64> = self.rows.iter().filter_map(column).collect();
         (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     }
 
-    /// The error that methods are ranked by: relative MSE.
+    /// Returns the error by which methods are ranked: relative MSE.
     pub fn error(&self) -> Option<f64> {
         self.mean(|row| row.rel_mse)
     }
 
-    /// Milliseconds and error, where both are known and can be drawn on logarithmic axes.
+    /// Returns milliseconds and error, if both are known and logarithmic axes can show them.
     pub fn point(&self) -> Option<(f64, f64)> {
         Some((self.ms?.median, self.error()?)).filter(|&(ms, error)| ms > 0.0 && error > 0.0)
     }
 }
 
-/// `None` of nothing.
+/// Returns the median; `None` for no values.
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;
@@ -64,14 +64,14 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
     }
 }
 
-/// Quartiles by rank.
+/// Returns the median and the quartiles by rank.
 pub fn spread(mut values: Vec<f64>) -> Option<Spread> {
     values.sort_by(f64::total_cmp);
     let at = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
     Some(Spread { median: median(values.clone())?, low: at(0.25), high: at(0.75) })
 }
 
-/// Passes that run several times in a frame are added up.
+/// Returns the median milliseconds of each pass; dispatches of one pass in a frame are added up.
 fn passes(frames: &[Vec<(String, f64)>]) -> Vec<(String, f64)> {
     let mut names: Vec<&String> = Vec::new();
     for (name, _) in frames.iter().flatten() {

@@ -1,9 +1,9 @@
-//! More triangles, the same picture.
+//! Tessellation: more triangles, the same picture.
 
 use asvgf::scene::{Mesh, Scene};
 
-/// Cuts each triangle that does not emit into n², all of one shape. Lights stay as they are: more of them would be another
-/// scene.
+/// Cuts each triangle that does not emit into n² triangles of one shape. Lights stay as they are, because more of them
+/// would be another scene.
 pub fn tessellated(scene: &Scene, n: u32) -> Scene {
     let mut scene = scene.clone();
     for mesh in &mut scene.meshes {
@@ -14,7 +14,7 @@ pub fn tessellated(scene: &Scene, n: u32) -> Scene {
     scene
 }
 
-/// Vertices are not shared between the triangles that there were: the sides of a block meet, and not their normals.
+/// Cuts a mesh. The original triangles share no vertices, because the sides of a block meet in different normals.
 fn cut(mesh: &Mesh, n: u32) -> Mesh {
     let mut out = Mesh {
         positions: Vec::new(),
@@ -26,7 +26,7 @@ fn cut(mesh: &Mesh, n: u32) -> Mesh {
     for triangle in &mesh.triangles {
         let first = out.positions.len() as u32;
         let corners = triangle.map(|vertex| vertex as usize);
-        // Row j has n − j + 1 vertices, and begins where all before it end.
+        // Row j has n − j + 1 vertices, and begins after the vertices of all rows before it.
         for (i, j) in (0..=n).flat_map(|j| (0..=n - j).map(move |i| (i, j))) {
             let weights = [n - i - j, i, j].map(|part| part as f32 / n as f32);
             out.positions.push(mix(&mesh.positions, corners, weights));

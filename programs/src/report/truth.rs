@@ -1,4 +1,4 @@
-//! What a sequence should look like: its converged frames, its surfaces, and where they changed.
+//! Truth of a sequence: its converged frames, its surfaces, and their changes.
 
 use crate::film::Film;
 use crate::gpu::Gpu;
@@ -13,7 +13,7 @@ use asvgf::{Camera, Settings, View, metrics};
 use std::error::Error;
 use std::path::Path;
 
-/// A surface is relit where its luminance changes by more than this part: above the noise of the references.
+/// Change of luminance, as a part, from which on a surface counts as relit: above the noise of the references.
 pub const RELIT: f64 = 0.25;
 
 /// Part of the depth by which the same surface may differ, half a pixel aside.
@@ -27,12 +27,13 @@ pub struct Moment {
     pub pose: Pose,
     pub camera: Camera,
     pub reference: Vec<Rgb>,
-    /// The mean of the first half of the reference's paths. That is as far from the reference as this is from the truth, to the
-    /// square and on average: a half's variance is twice the whole's, and they differ by half of the halves' difference.
+    /// Mean of the first half of the reference's paths. On average, its squared distance from the reference equals the
+    /// reference's squared distance from the truth: a half's variance is twice the whole's, and half and whole differ
+    /// by half of the halves' difference.
     pub half: Vec<Rgb>,
-    /// Neither an emitter nor a miss: those bypass every filter.
+    /// True for pixels that are neither an emitter nor a miss: those bypass every filter.
     pub counted: Vec<bool>,
-    /// Where still surfaces with the same light were in the last frame.
+    /// Pixel of the last frame, for still surfaces with the same light.
     pub steady: Vec<Option<usize>>,
     /// Frames since a pixel's surface was disoccluded or relit.
     pub ages: Vec<u32>,
@@ -42,13 +43,13 @@ pub struct Moment {
 pub struct Truth {
     pub scene: GpuScene,
     pub moments: Vec<Moment>,
-    /// Of the scene and all settings that references depend on.
+    /// Hash of the scene and of all settings that references depend on.
     pub hash: Hash,
 }
 
 impl Truth {
-    /// Reads the references that are kept, and traces the others. Calls back after each frame. With a folder to export to, writes
-    /// there what any denoiser needs, as `denoise` and `score` read it.
+    /// Reads the references that are kept, and traces the others. Calls back after each frame. With a folder for the
+    /// export, writes there all data that a denoiser needs, in the form that `denoise` and `score` read.
     pub fn find(
         gpu: &Gpu,
         suite: &Suite,
@@ -71,7 +72,7 @@ impl Truth {
             let path = script.reference(&pose, &camera);
             let [converged, half] = match read_layers(&path, suite.size, ["", "half."]) {
                 Ok(layers) => layers,
-                // It is not there, or cannot be used.
+                // The file does not exist, or is unusable.
                 Err(_) => {
                     let halves = converge(&mut reference, &scene, camera, suite.paths)?;
                     path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
@@ -104,14 +105,14 @@ impl Moment {
     }
 }
 
-/// Traces a reference: the mean of all paths, and that of their first half.
+/// Traces a reference: returns the mean of all paths, and that of their first half.
 fn converge(
     reference: &mut Reference<'_>,
     scene: &GpuScene,
     camera: Camera,
     paths: u32,
 ) -> Result<[Vec<Rgb>; 2], asvgf::Error> {
-    // Frames share their random numbers: what is traced depends on nothing that was traced before.
+    // All frames share their random numbers, so that a reference is independent of earlier tracing.
     reference.rewind();
     let mut half = || reference.converge(scene, camera, paths.div_ceil(2), |_| {});
     let (first, second) = (half()?, half()?);
@@ -119,7 +120,7 @@ fn converge(
     Ok([mean.collect(), first])
 }
 
-/// Puts everything where it is in a frame.
+/// Moves everything to its place in a frame.
 pub fn move_to(gpu: &Gpu, scene: &mut GpuScene, pose: &Pose) -> Result<(), Box<dyn Error>> {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     scene.update(&gpu.device, &mut encoder, pose)?;
@@ -127,21 +128,21 @@ pub fn move_to(gpu: &Gpu, scene: &mut GpuScene, pose: &Pose) -> Result<(), Box<d
     Ok(())
 }
 
-/// What tells surfaces apart.
+/// Images that distinguish surfaces.
 struct Seen {
     depth: Vec<Rgb>,
-    /// `None` where there is but one object.
+    /// `None` if there is only one object.
     objects: Option<Vec<Rgb>>,
 }
 
 impl Seen {
-    /// Whether a point that was `depth` away in the last frame is what a pixel saw then.
+    /// True if a point at the distance `depth` in the last frame is the surface that the pixel saw then.
     fn had(&self, pixel: usize, depth: f32) -> bool {
         (self.depth[pixel][0] - depth).abs() <= SAME_DEPTH * depth
     }
 }
 
-/// Finds out what is seen in a frame, given the last one.
+/// Classifies a frame's pixels, given the last frame.
 fn observe(
     film: &mut Film<'_>,
     mut moment: Moment,
@@ -157,7 +158,7 @@ fn observe(
         moment.ages = vec![u32::MAX; seen.depth.len()];
         return Ok((moment, seen));
     };
-    // Nothing moves where there is no image of it.
+    // Without an image of motion, nothing moves.
     let motion = optional(film, View::Motion)?;
     let moved = motion.unwrap_or_else(|| seen.depth.iter().map(|z| [0.0, 0.0, z[0]]).collect());
     let flat: Vec<_> = moved.iter().map(|m| [m[0], m[1]]).collect();
@@ -171,7 +172,7 @@ fn observe(
     Ok((moment, seen))
 }
 
-/// An image of the last frame, if there is one.
+/// Returns an image of the last frame, if there is one.
 pub fn optional(film: &mut Film<'_>, view: View) -> Result<Option<Vec<Rgb>>, asvgf::Error> {
     match film.numbers(view) {
         Ok(numbers) => Ok(Some(numbers)),
@@ -180,12 +181,12 @@ pub fn optional(film: &mut Film<'_>, view: View) -> Result<Option<Vec<Rgb>>, asv
     }
 }
 
-/// R, G and B of a file.
+/// Reads R, G and B of a file.
 pub fn read_colors(path: &Path, size: [u32; 2]) -> Result<Vec<Rgb>, Box<dyn Error>> {
     read_layers(path, size, [""]).map(|[colors]| colors)
 }
 
-/// R, G and B of a file's layers.
+/// Reads R, G and B of a file's layers.
 fn read_layers<const N: usize>(path: &Path, size: [u32; 2], names: [&str; N]) -> Result<[Vec<Rgb>; N], Box<dyn Error>> {
     let image = read_exr(path)?;
     if [image.width, image.height] != size {
@@ -203,7 +204,7 @@ fn read_layers<const N: usize>(path: &Path, size: [u32; 2], names: [&str; N]) ->
     Ok(layers)
 }
 
-/// Writes them.
+/// Writes R, G and B of layers.
 fn write_layers<const N: usize>(
     path: &Path,
     [width, height]: [u32; 2],

@@ -1,24 +1,24 @@
-//! What the numbers say: who is best for the time, and how much faster.
+//! Conclusions from the numbers: the best method for the time, and the speed-up.
 
 use crate::report::fit::{Power, line};
 use crate::report::methods::{CONTROL, DEFAULT, Group};
 use crate::report::summary::Summary;
 
-/// Times that differ by less count as equal.
+/// Ratio of times up to which they count as equal.
 const EQUAL_TIME: f64 = 1.05;
 
-/// A claim about a sequence, and whether its numbers bear it out.
+/// A claim about a sequence, and its test against the numbers.
 pub struct Claim {
     pub text: String,
     pub holds: bool,
 }
 
-/// The method of a name.
+/// Returns the method with a name.
 pub fn find<'a>(summaries: &'a [Summary], name: &str) -> Option<&'a Summary> {
     summaries.iter().find(|summary| summary.method == name)
 }
 
-/// The methods that no other beats in both time and error, the fastest first.
+/// Returns the methods that no other beats in both time and error, the fastest first.
 pub fn pareto(summaries: &[Summary]) -> Vec<&Summary> {
     let mut ranked: Vec<_> = summaries.iter().filter_map(|summary| Some((summary.point()?, summary))).collect();
     ranked.sort_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -31,7 +31,7 @@ pub fn pareto(summaries: &[Summary]) -> Vec<&Summary> {
     ranked.into_iter().map(|(_, summary)| summary).collect()
 }
 
-/// The method of least error among those that take no longer than the default.
+/// Returns the method of least error among those that take no longer than the default.
 pub fn equal_time(summaries: &[Summary]) -> Option<&Summary> {
     let (limit, _) = find(summaries, DEFAULT)?.point()?;
     let affordable = summaries.iter().filter_map(|summary| Some((summary.point()?, summary)));
@@ -39,19 +39,19 @@ pub fn equal_time(summaries: &[Summary]) -> Option<&Summary> {
     Some(affordable.min_by(|(a, _), (b, _)| a.1.total_cmp(&b.1))?.1)
 }
 
-/// What path tracing alone would take for the default's error.
+/// Cost of path tracing alone at the default's error.
 pub struct SpeedUp {
     /// Paths per pixel.
     pub paths: f64,
     pub ms: f64,
-    /// Times the default's milliseconds.
+    /// Ratio to the default's milliseconds.
     pub factor: f64,
-    /// Whether so many paths were never measured.
+    /// True if no measurement had so many paths.
     pub extrapolated: bool,
 }
 
-/// Fits a·pathsᵇ to path tracing's error, and c + d·paths to its milliseconds (both by least squares), and reads both off at the
-/// default's error.
+/// Fits a·pathsᵇ to path tracing's error, and c + d·paths to its milliseconds, both by least squares, and evaluates
+/// both at the default's error.
 pub fn equal_error(summaries: &[Summary]) -> Option<SpeedUp> {
     let (time, error) = find(summaries, DEFAULT)?.point()?;
     let traced = summaries.iter().filter_map(|summary| match summary.group {
@@ -72,7 +72,7 @@ pub fn equal_error(summaries: &[Summary]) -> Option<SpeedUp> {
     Some(SpeedUp { paths, ms, factor: ms / time, extrapolated: paths > most })
 }
 
-/// What is promised of the adaptive α, held against the numbers of a sequence.
+/// Tests the promises of the adaptive α against the numbers of a sequence.
 pub fn claims(sequence: &str, summaries: &[Summary]) -> Vec<Claim> {
     let error = |name: &str| find(summaries, name).and_then(Summary::error);
     let ghost = |name: &str| find(summaries, name).and_then(|summary| summary.mean(|row| row.ghost));

@@ -1,15 +1,15 @@
-//! report.md: the numbers, and what they say.
+//! report.md: the numbers, and the conclusions in words.
 
 use crate::report::methods::{DEFAULT, Group};
 use crate::report::summary::{Spread, Summary};
 use crate::report::verdict;
 use std::fmt::Write as _;
 
-/// What is told about a report as a whole.
+/// Facts about a report as a whole.
 pub struct Context {
     /// Command, machine and the like, one line each.
     pub facts: Vec<String>,
-    /// What did not fit into the budget.
+    /// Parts that did not fit into the budget.
     pub dropped: Vec<String>,
 }
 
@@ -21,7 +21,7 @@ pub struct Chapter {
     pub picture: Option<String>,
 }
 
-/// The whole report.
+/// Writes the whole report.
 pub fn report(context: &Context, chapters: &[Chapter]) -> String {
     let mut out = String::from("# Error against run time\n\n");
     for fact in &context.facts {
@@ -58,7 +58,7 @@ pub fn report(context: &Context, chapters: &[Chapter]) -> String {
     out
 }
 
-/// relMSE of each method in each sequence.
+/// Tabulates relMSE of each method in each sequence.
 fn across(chapters: &[Chapter]) -> String {
     let mut out = String::from("\n## All sequences: relMSE\n\n| method |");
     let error = |chapter: &Chapter, name: &str| verdict::find(&chapter.summaries, name).and_then(Summary::error);
@@ -77,7 +77,7 @@ fn across(chapters: &[Chapter]) -> String {
         for chapter in chapters {
             let _ = write!(out, " {} |", number(error(chapter, name), 5));
         }
-        // Of all sequences or of none: they are not equally hard.
+        // The mean covers all sequences or none, because they are not equally hard.
         let logarithms = chapters.iter().map(|c| Some((error(c, name)? / error(c, DEFAULT)?).ln()));
         let sum: Option<f64> = logarithms.sum();
         let _ = writeln!(out, " {} |", number(sum.map(|sum| (sum / chapters.len() as f64).exp()), 3));
@@ -107,7 +107,7 @@ fn table(summaries: &[Summary]) -> String {
     out
 }
 
-/// Milliseconds of each pass.
+/// Tabulates milliseconds of each pass.
 fn passes(summaries: &[Summary]) -> String {
     let mut names: Vec<&str> = Vec::new();
     for (name, _) in summaries.iter().filter(|s| s.group != Group::Baseline).flat_map(|s| &s.passes) {
@@ -127,7 +127,7 @@ fn passes(summaries: &[Summary]) -> String {
     out
 }
 
-/// Frames until the light's step arrived, where there was one.
+/// Tabulates the frames until the light's step arrived, if there was one.
 fn lags(summaries: &[Summary]) -> String {
     if summaries.iter().all(|summary| summary.lag.is_empty()) {
         return String::new();
@@ -152,7 +152,7 @@ fn lags(summaries: &[Summary]) -> String {
     out
 }
 
-/// What the numbers of a sequence say.
+/// Words the conclusions from the numbers of a sequence.
 fn verdicts(chapter: &Chapter) -> String {
     let summaries = &chapter.summaries;
     let mut out = String::from("\n");
@@ -189,7 +189,7 @@ fn verdicts(chapter: &Chapter) -> String {
     out
 }
 
-/// What each idea of the default brings: how much larger the error is without it.
+/// Words the gain from each idea of the default: the growth of the error without it.
 fn ablation(summaries: &[Summary]) -> String {
     let Some(default) = verdict::find(summaries, DEFAULT).and_then(Summary::error) else { return String::new() };
     let undone = summaries.iter().filter(|summary| summary.group == Group::Ablation);

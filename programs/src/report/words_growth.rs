@@ -1,4 +1,4 @@
-//! How cost grows, in words.
+//! Growth of costs, in words.
 
 use crate::report::fit::Power;
 use crate::report::growth::{Cost, Growth};

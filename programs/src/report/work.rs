@@ -1,4 +1,4 @@
-//! Measuring under way: sequence by sequence, method by method, within the time that there is.
+//! Measurement under way: sequence by sequence, method by method, within the available time.
 
 use crate::gpu::Gpu;
 use crate::report::command::Command;
@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use std::{fs, io};
 
-/// The constant α that pictures show.
+/// Method with a constant α in the pictures.
 const CONSTANT: &str = "svgf 0.2";
-/// The code that decides what a run is.
+/// Code that decides the result of a run.
 pub const CODE: [&str; 8] = [
     "shaders",
     "src",
@@ -31,23 +31,23 @@ pub const CODE: [&str; 8] = [
     "programs/src/film.rs",
     "programs/src/times.rs",
 ];
-/// The frame that pictures show, just after the turn.
+/// Frame in the pictures, just after the turn.
 const SHOWN: u32 = TURN + 1;
 
-/// What is being measured, and what it may take.
+/// Measurements under way, and their budget.
 pub struct Work<'a> {
     command: &'a Command,
     gpu: &'a Gpu,
     bar: ProgressBar,
     deadline: Option<Instant>,
-    /// Runs that are still to do.
+    /// Runs that remain.
     left: usize,
-    /// What there was no time for.
+    /// Parts that the budget did not allow.
     dropped: Vec<String>,
 }
 
 impl<'a> Work<'a> {
-    /// The budget is counted from a start on.
+    /// Begins; the budget counts from `start`.
     pub fn new(command: &'a Command, gpu: &'a Gpu, start: Instant, dropped: Vec<String>) -> Self {
         let suite = &command.suite;
         let deadline = command.budget.map(|minutes| start + Duration::from_secs_f64(60.0 * minutes));
@@ -55,20 +55,20 @@ impl<'a> Work<'a> {
         Self { command, gpu, bar: progress(suite), deadline, left, dropped }
     }
 
-    /// What there was no time for.
+    /// Returns the parts that the budget did not allow.
     pub fn finish(self) -> Vec<String> {
         self.bar.finish_and_clear();
         self.dropped
     }
 
-    /// Measures a sequence, and draws it; `None` where there is no time left for any of it.
+    /// Measures a sequence, and draws it; `None` if no time is left for any of it.
     pub fn chapter(&mut self, sequence: &Sequence) -> Result<Option<Chapter>, Box<dyn Error>> {
         let Command { suite, out, baselines, .. } = self.command;
         let name = sequence.name.clone();
         let runs = out.join("runs");
         let folder = runs.join(&name);
         fs::create_dir_all(&folder)?;
-        // What was kept takes no time.
+        // Kept results take no time.
         if self.time() == Some(Duration::ZERO) && fs::read_dir(&folder)?.next().is_none() {
             self.dropped.push(format!("{name} as a whole"));
             return Ok(None);
@@ -79,8 +79,9 @@ impl<'a> Work<'a> {
             fs::create_dir_all(folder)?;
         }
         let counting = |frames: u32| self.bar.inc(frames.into());
-        // One for each sequence: on one for all, lavapipe took 100 ms for a temporal pass of 4 ms from the 120th method on,
-        // as if it compiled it in each frame. It keeps compiled shaders by the device, and not without end.
+        // Each sequence gets its own device. With one device for all, lavapipe took 100 ms for a temporal pass of 4 ms
+        // from the 120th method on, as if it compiled it in each frame: it keeps a limited number of compiled shaders
+        // per device.
         let gpu = Gpu::new()?;
         let mut truth = Truth::find(&gpu, suite, sequence, export.as_deref(), counting)?;
         let (mut summaries, mut repeats) = (Vec::new(), Vec::new());
@@ -104,7 +105,7 @@ impl<'a> Work<'a> {
         Ok(Some(Chapter { sequence: name, summaries, plots, picture }))
     }
 
-    /// Measures how cost grows, and draws it; returns it in words.
+    /// Measures the growth of costs, and draws it; returns it in words.
     pub fn growth(&self) -> Result<String, Box<dyn Error>> {
         let out = &self.command.out;
         let next = |what: &str| self.bar.set_message(format!("growth: {what}"));
@@ -113,12 +114,12 @@ impl<'a> Work<'a> {
         Ok(words_growth::growth(&growth, &plots))
     }
 
-    /// Time that is left, if there is an end to it.
+    /// Returns the remaining time, if there is a budget.
     fn time(&self) -> Option<Duration> {
         self.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()))
     }
 
-    /// A run that was kept, or a new one; `None` where there is no time for it.
+    /// Returns a kept run, or a new one; `None` if there is no time for it.
     fn run(
         &self,
         gpu: &Gpu,
@@ -130,12 +131,12 @@ impl<'a> Work<'a> {
         let Command { suite, .. } = self.command;
         let key = key(truth.hash, suite, method, gpu)?;
         let path = path(runs, sequence, method);
-        // Without a budget, what an earlier one cut short is measured again.
+        // Without a budget, runs that an earlier budget cut short are measured again.
         let complete = |run: &Run| self.deadline.is_some() || run.repeats >= suite.repeats;
         if let Some(run) = Run::load(&path, &key).filter(complete) {
             return Ok(Some(run));
         }
-        // Each run that is left gets its part of the time that is left, and repeats within that.
+        // Each remaining run gets its part of the remaining time, and repeats within that.
         let time = self.time();
         if time == Some(Duration::ZERO) {
             return Ok(None);
@@ -150,13 +151,13 @@ impl<'a> Work<'a> {
         Ok(Some(run))
     }
 
-    /// One path per pixel, a constant and an adaptive α, and the truth, side by side.
+    /// Writes one path per pixel, a constant and an adaptive α, and the truth, side by side.
     fn picture(&self, sequence: &str, truth: &Truth, folder: &Path) -> Result<Option<String>, Box<dyn Error>> {
         let size = self.command.suite.size;
         let Some(moment) = truth.moments.iter().find(|moment| moment.index == SHOWN) else { return Ok(None) };
         let mut tiles: Vec<(String, Vec<Rgb>)> = Vec::new();
         for method in [ONE_PATH, CONSTANT, DEFAULT] {
-            // A budget may have left it out.
+            // A budget may have dropped the method.
             if let Ok(colors) = truth::read_colors(&folder.join(format!("{method}.exr")), size) {
                 tiles.push((method.into(), colors));
             }
@@ -168,18 +169,18 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Everything that decides a run.
+/// Hashes everything that decides a run.
 pub fn key(scene: Hash, suite: &Suite, method: &Method, gpu: &Gpu) -> io::Result<String> {
     let key = scene.and_files(&CODE)?.and(&method.settings).and(&suite.frames);
     Ok(key.and(&gpu.adapter.name).to_string())
 }
 
-/// The file that a run is kept in.
+/// Returns the file of a run.
 pub fn path(runs: &Path, sequence: &str, method: &Method) -> PathBuf {
     runs.join(sequence).join(format!("{}.json", method.name))
 }
 
-/// A bar of frames, references included. It does not show where there is no terminal.
+/// Returns a bar of frames, references included. It stays hidden without a terminal.
 fn progress(suite: &Suite) -> ProgressBar {
     let runs = suite.sequences.len() * (suite.methods.len() + 1);
     let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {elapsed} gone, {eta} to go");

@@ -1,4 +1,4 @@
-//! What each idea of the default brings.
+//! Plot of the gain from each idea of the default.
 
 use super::{Drawn, FONT, Plot, bars, color, is_variant, span};
 use crate::report::methods::DEFAULT;
@@ -7,10 +7,10 @@ use crate::report::verdict;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// The longest bar of errors.
+/// Longest bar of errors: its error over the default's.
 const MOST: f64 = 3.0;
 
-/// The error of each variant of the default, in parts of the default's.
+/// Error of each variant of the default, over the default's.
 pub struct Ablation<'a> {
     pub sequence: &'a str,
     pub summaries: &'a [Summary],
@@ -22,7 +22,7 @@ impl Plot for Ablation<'_> {
         let variants = self.summaries.iter().filter(|summary| is_variant(summary) || summary.method == DEFAULT);
         let parts: Vec<_> = variants.filter_map(|s| Some((s.method.as_str(), s.error()? / default, s.group))).collect();
         let names: Vec<_> = parts.iter().map(|(name, ..)| *name).collect();
-        // A few are worse by far: they leave the picture.
+        // Bars of much worse variants leave the picture.
         let end = parts.iter().map(|(_, part, _)| part.min(MOST)).fold(1.1, f64::max);
         let caption = format!("{}: relative MSE, in parts of that of {DEFAULT}", self.sequence);
         let mut chart = bars(root, &caption, "error / error of the default", 1.1 * end, &names)?;

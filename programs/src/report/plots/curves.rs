@@ -1,4 +1,4 @@
-//! What happens around the turn.
+//! Plot of the frames around the turn.
 
 use super::{Drawn, FONT, LABELS, PALETTE, Plot, TITLE, bounds, legend};
 use crate::report::methods::{DEFAULT, ONE_PATH};
@@ -10,7 +10,7 @@ use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::prelude::*;
 
-/// Methods whose frames are drawn one by one.
+/// Methods with a curve.
 const FOLLOWED: [&str; 6] = [ONE_PATH, "average 0.2", "svgf 0.2", "svgf 0.05", "classic", DEFAULT];
 
 /// A number of each frame around the turn, for some methods.
@@ -41,7 +41,7 @@ impl Plot for Curves<'_> {
 }
 
 impl Curves<'_> {
-    /// Draws the curves on an axis of either kind.
+    /// Draws the curves on a linear or a logarithmic axis.
     fn draw_on<B: DrawingBackend<ErrorType: 'static>, Y: AsRangedCoord<Value = f64>>(
         &self,
         root: &DrawingArea<B, Shift>,
@@ -58,7 +58,7 @@ impl Curves<'_> {
             .margin(12)
             .x_label_area_size(LABELS)
             .y_label_area_size(LABELS + 24)
-            // The legend is beside the curves.
+            // The free space on the right holds the legend.
             .build_cartesian_2d(frames[0]..frames[1] + 0.25 * (frames[1] - frames[0]), axis(heights))?;
         let mesh = &mut chart.configure_mesh();
         mesh.x_desc("frame").y_desc(self.title).x_label_formatter(&|x| format!("{x:.0}"));

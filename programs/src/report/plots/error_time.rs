@@ -1,4 +1,4 @@
-//! Who is best for the time.
+//! Plot of error against time.
 
 use super::{Drawn, FONT, LABELS, Plot, TITLE, bounds, color, is_variant};
 use crate::report::summary::Summary;
@@ -6,7 +6,8 @@ use crate::report::verdict;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// Error against milliseconds, and the front of those that nothing beats in both. Variants of the default have a plot of their own.
+/// Error against milliseconds, and the front of the methods that no other beats in both. Variants of the default have
+/// their own plot.
 pub struct ErrorTime<'a> {
     pub sequence: &'a str,
     pub summaries: &'a [Summary],
@@ -41,7 +42,7 @@ impl Plot for ErrorTime<'_> {
     }
 }
 
-/// The nearest place above or below one where a label covers no other.
+/// Returns the nearest place above or below a place for a label that covers no other.
 fn free([x, y]: [i32; 2], labels: &[[i32; 2]]) -> [i32; 2] {
     let [wide, high] = [110, 12];
     let covers = |place: [i32; 2]| labels.iter().any(|l| (l[0] - x).abs() < wide && (l[1] - place[1]).abs() < high);
@@ -49,7 +50,7 @@ fn free([x, y]: [i32; 2], labels: &[[i32; 2]]) -> [i32; 2] {
     near.into_iter().find(|&place| !covers(place)).unwrap_or([x, y])
 }
 
-/// A number that begins with 1, 2 or 5; the others would stand too close.
+/// Formats a number that begins with 1, 2 or 5. Other numbers become an empty label, because they would stand too close.
 pub fn sparse(value: &f64) -> String {
     let digit = value / 10_f64.powf((value.log10() + 1e-9).floor());
     let round = [1.0, 2.0, 5.0].iter().any(|first| (digit - first).abs() < 1e-6);

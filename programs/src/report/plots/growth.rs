@@ -1,4 +1,4 @@
-//! How cost grows.
+//! Plot of the growth of costs.
 
 use super::error_time::sparse;
 use super::{Drawn, FONT, LABELS, PALETTE, Plot, TITLE, bounds, legend};
@@ -6,7 +6,7 @@ use crate::report::fit::Power;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// Costs against what they depend on, each with the power that fits best.
+/// Costs against pixels or triangles, each with its best power law.
 pub struct Growing<'a> {
     pub caption: &'a str,
     pub axes: [&'a str; 2],
@@ -17,7 +17,7 @@ impl Plot for Growing<'_> {
     fn draw<B: DrawingBackend<ErrorType: 'static>>(&self, root: &DrawingArea<B, Shift>) -> Drawn {
         let all = self.curves.iter().flat_map(|(_, points)| points.iter().copied());
         let Some([counts, costs]) = bounds(all) else { return Ok(()) };
-        // The legend is above the curves.
+        // The free space above the curves holds the legend.
         let [width, height] = [(counts[0] / 1.5..counts[1] * 1.5), (costs[0] / 1.5..costs[1] * 4.0)];
         let mut chart = ChartBuilder::on(root)
             .caption(self.caption, TITLE)

@@ -26,12 +26,12 @@ use std::path::Path;
 const SIZE: (u32, u32) = (960, 600);
 const FONT: (&str, i32) = ("sans-serif", 15);
 const TITLE: (&str, i32) = ("sans-serif", 20);
-/// Larger, as the room for a legend is estimated for narrower letters.
+/// Larger letters than drawn, because plotters reserves a legend's room for narrower ones.
 const LEGEND: (&str, i32) = ("sans-serif", 18);
 /// Pixels for the labels of the axes.
 const LABELS: u32 = 64;
 
-/// Colours that are told apart, dark enough for lines on white.
+/// Distinguishable colours, dark enough for lines on white.
 const PALETTE: [RGBColor; 12] = [
     RGBColor(78, 121, 167),
     RGBColor(242, 142, 43),
@@ -49,7 +49,7 @@ const PALETTE: [RGBColor; 12] = [
 
 type Drawn = Result<(), Box<dyn Error>>;
 
-/// Something that can be drawn on anything.
+/// A drawing that works on any backend.
 trait Plot {
     fn draw<B: DrawingBackend<ErrorType: 'static>>(&self, root: &DrawingArea<B, Shift>) -> Drawn;
 
@@ -65,7 +65,7 @@ trait Plot {
     }
 }
 
-/// Draws all there is to draw of a sequence; returns the names of the files, without their ending.
+/// Draws all plots of a sequence; returns the names of the files, without their ending.
 pub fn draw(folder: &Path, sequence: &str, summaries: &[Summary]) -> Result<Vec<String>, Box<dyn Error>> {
     let curve = |title, column, logarithmic| Curves { sequence, summaries, title, column, logarithmic };
     let name = |what: &str| format!("{sequence}-{what}");
@@ -79,7 +79,7 @@ pub fn draw(folder: &Path, sequence: &str, summaries: &[Summary]) -> Result<Vec<
     Ok(names.to_vec())
 }
 
-/// Draws how cost grows; returns the names of the files, without their ending.
+/// Draws the growth of costs; returns the names of the files, without their ending.
 pub fn draw_growth(folder: &Path, growth: &Growth) -> Result<Vec<String>, Box<dyn Error>> {
     let pixels = |cost: &Cost| f64::from(cost.size[0] * cost.size[1]);
     let sizes = |number: fn(&Cost) -> f64| growth.sizes.iter().map(|cost| (pixels(cost), number(cost))).collect();
@@ -112,7 +112,7 @@ pub fn draw_growth(folder: &Path, growth: &Growth) -> Result<Vec<String>, Box<dy
 
 type Chart<'a, B, Y> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, Y>>;
 
-/// A chart for one bar for each name, from above.
+/// Makes a chart with one bar for each name, from above.
 fn bars<'a, B: DrawingBackend<ErrorType: 'static>>(
     root: &'a DrawingArea<B, Shift>,
     caption: &str,
@@ -136,13 +136,13 @@ fn bars<'a, B: DrawingBackend<ErrorType: 'static>>(
     Ok(chart)
 }
 
-/// Lower and upper end of a bar.
+/// Returns the lower and the upper end of a bar.
 fn span(row: usize, rows: usize) -> [f64; 2] {
     let top = (rows - row) as f64;
     [top - 0.85, top - 0.15]
 }
 
-/// Says which colour is what.
+/// Draws the legend of the colours.
 fn legend<'a, B: DrawingBackend<ErrorType: 'static> + 'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
     chart: &mut ChartContext<'a, B, Cartesian2d<X, Y>>,
 ) -> Drawn {
@@ -151,12 +151,12 @@ fn legend<'a, B: DrawingBackend<ErrorType: 'static> + 'a, X: Ranged<ValueType = 
     Ok(labels.background_style(WHITE.mix(0.8)).border_style(BLACK.mix(0.3)).draw()?)
 }
 
-/// Whether a method is the default with something changed.
+/// True if a method is the default with a change.
 fn is_variant(summary: &Summary) -> bool {
     matches!(summary.group, Group::Iterations | Group::Ablation)
 }
 
-/// Least and largest x, and least and largest y.
+/// Returns the least and the largest x, and the least and the largest y.
 fn bounds(points: impl Iterator<Item = (f64, f64)>) -> Option<[[f64; 2]; 2]> {
     let of = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
     points.fold(None, |bounds, (x, y)| {

@@ -1,4 +1,4 @@
-//! Where the time goes.
+//! Plot of the passes' shares of the time.
 
 use super::{Drawn, PALETTE, Plot, bars, legend, span};
 use crate::report::methods::{CONTROL, Group, ONE_PATH};
@@ -14,7 +14,7 @@ pub struct Passes<'a> {
 
 impl Plot for Passes<'_> {
     fn draw<B: DrawingBackend<ErrorType: 'static>>(&self, root: &DrawingArea<B, Shift>) -> Drawn {
-        // Many paths take so long that nothing else would be seen.
+        // Methods with many paths are excluded, because their bars would hide all others.
         let shown =
             |s: &&Summary| (!matches!(s.group, Group::Tracing(_)) || s.method == ONE_PATH) && !s.passes.is_empty();
         let methods: Vec<_> = self.summaries.iter().filter(shown).filter(|s| s.method != CONTROL).collect();
