@@ -3,18 +3,19 @@
 use asvgf::{Matrices, Viewpoint};
 use serde_json::{Value, json};
 
-/// How rays leave the camera.
+/// Lens: the directions of the rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lens {
-    /// From one point: the tangent of half the horizontal field of view.
+    /// Rays from one point: the tangent of half the horizontal field of view.
     Perspective(f64),
-    /// Along one direction: half the picture's width in the world.
+    /// Rays along one direction: half the picture's width in the world.
     Orthographic(f64),
 }
 
-/// A camera. With the picture's point (x, y), −1…1, y up, the pixel's point at the depth z is, with s the lens's number and h/w the picture's
-/// height over width: `eye + z·(forward + u·right + v·up)` in a perspective, `eye + z·forward + u·right + v·up` in an orthographic
-/// view, u = s·(x + shift₀), v = s·(y·h/w + shift₁).
+/// A camera. The formulas give the point of a pixel at the depth z. The pixel is at the picture's point (x, y), −1…1, y
+/// up; s is the lens's number, and h/w the picture's height over its width. With u = s·(x + shift₀) and v = s·(y·h/w +
+/// shift₁), the point is `eye + z·(forward + u·right + v·up)` in a perspective, and `eye + z·forward + u·right + v·up`
+/// in an orthographic view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     pub eye: [f64; 3],
@@ -23,18 +24,18 @@ pub struct Camera {
     pub right: [f64; 3],
     pub up: [f64; 3],
     pub lens: Lens,
-    /// Of the lens against the picture, in halves of its width: right and up.
+    /// Shift of the lens against the picture, in halves of the picture's width: right and up.
     pub shift: [f64; 2],
-    /// Of the rays within their pixels, from the centre, x right, y down.
+    /// Jitter of the rays within their pixels, from the centre, x right, y down.
     pub jitter: [f64; 2],
 }
 
-/// Where an image's pixels lie in the picture that the camera takes.
+/// Place of an image's pixels in the picture that the camera takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Raster {
-    /// Columns and rows that there are.
+    /// Columns and rows of the image.
     pub size: [u32; 2],
-    /// The first of them, counted from the picture's first.
+    /// Column and row of the image's first pixel in the picture.
     pub offset: [i32; 2],
     /// Columns and rows of the picture.
     pub picture: [u32; 2],
@@ -43,28 +44,28 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// The whole picture, of square pixels.
+    /// Returns the whole picture, of square pixels.
     pub fn whole(size: [u32; 2]) -> Self {
         Self { size, offset: [0; 2], picture: size, aspect: 1.0 }
     }
 
-    /// The picture's height over its width.
+    /// Returns the picture's height over its width.
     pub fn height_over_width(self) -> f64 {
         f64::from(self.picture[1]) / (f64::from(self.picture[0]) * self.aspect)
     }
 
-    /// The tangent of half the horizontal field of view, of the vertical one in radians.
+    /// Returns the tangent of half the horizontal field of view, given the vertical field of view in radians.
     pub fn slope_of(self, fov_y: f64) -> f64 {
         (fov_y / 2.0).tan() / self.height_over_width()
     }
 
-    /// A place in pixels as (x, y·h/w), −1…1 in x, y up.
+    /// Converts a place in pixels to (x, y·h/w), −1…1 in x, y up.
     pub fn point(self, place: [f64; 2]) -> [f64; 2] {
         let [x, y] = [0, 1].map(|i| 2.0 * (place[i] + f64::from(self.offset[i])) / f64::from(self.picture[i]) - 1.0);
         [x, -y * self.height_over_width()]
     }
 
-    /// The place in pixels of (x, y·h/w).
+    /// Converts (x, y·h/w) to a place in pixels.
     pub fn place(self, [x, y]: [f64; 2]) -> [f64; 2] {
         let point = [x, -y / self.height_over_width()];
         [0, 1].map(|i| (point[i] + 1.0) * f64::from(self.picture[i]) / 2.0 - f64::from(self.offset[i]))
@@ -72,18 +73,18 @@ impl Raster {
 }
 
 impl Camera {
-    /// At the origin, with a vertical field of view in radians, along −Z with +Y up.
+    /// Returns a camera at the origin that looks along −Z with +Y up, with a vertical field of view in radians.
     pub fn at_rest(fov_y: f64, raster: Raster) -> Self {
         Self::looking([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]], Lens::Perspective(raster.slope_of(fov_y)))
     }
 
-    /// At the origin, with directions to the right, up and forward.
+    /// Returns a camera at the origin, with directions to the right, up and forward.
     pub fn looking([right, up, forward]: [[f64; 3]; 3], lens: Lens) -> Self {
         Self { eye: [0.0; 3], forward, right, up, lens, shift: [0.0; 2], jitter: [0.0; 2] }
     }
 
-    /// From `{"o", "fw", "r", "up", "th", "jitter", "shift"}`: eye, directions, slope; or "ortho" instead of "th". Jitter and shift may be left
-    /// out. The error names the key.
+    /// Reads `{"o", "fw", "r", "up", "th", "jitter", "shift"}`: eye, directions, slope; or "ortho" instead of "th".
+    /// Jitter and shift are optional. The error names the key.
     pub fn from_json(value: &Value) -> Result<Self, String> {
         let vector = |key: &str| numbers(&value[key]).ok_or_else(|| format!("{key} must be three numbers"));
         let positive = |key: &str| value[key].as_f64().filter(|x| *x > 0.0 && x.is_finite());
@@ -115,7 +116,7 @@ impl Camera {
         json
     }
 
-    /// The number of the lens.
+    /// Returns the number of the lens.
     pub fn slope(&self) -> f64 {
         match self.lens {
             Lens::Perspective(slope) => slope,
@@ -127,7 +128,7 @@ impl Camera {
         matches!(self.lens, Lens::Orthographic(_))
     }
 
-    /// With another number of the lens.
+    /// Returns the camera with another number of the lens.
     pub fn with_slope(self, slope: f64) -> Self {
         let lens = match self.lens {
             Lens::Perspective(_) => Lens::Perspective(slope),
@@ -136,7 +137,7 @@ impl Camera {
         Self { lens, ..self }
     }
 
-    /// The same for the denoiser.
+    /// Converts the camera for the denoiser.
     pub fn viewpoint(&self, raster: Raster) -> Viewpoint {
         let rows = [self.right, self.up, self.forward];
         let column = |axis: usize| [rows[0][axis], rows[1][axis], rows[2][axis], 0.0].map(|x| x as f32);
@@ -159,7 +160,7 @@ impl Camera {
         Matrices { view, projection, jitter: self.jitter.map(|j| j as f32) }.into()
     }
 
-    /// u and v of a place in pixels.
+    /// Returns u and v of a place in pixels.
     fn lateral(&self, place: [f64; 2], raster: Raster) -> [f64; 2] {
         let point = raster.point(place);
         [0, 1].map(|i| self.slope() * (point[i] + self.shift[i]))
@@ -169,20 +170,20 @@ impl Camera {
         self.lateral([0, 1].map(|i| f64::from(pixel[i]) + 0.5 + self.jitter[i]), raster)
     }
 
-    /// The point that a pixel sees at a depth.
+    /// Returns the point that a pixel sees at a depth.
     pub fn position(&self, pixel: [u32; 2], depth: f64, raster: Raster) -> [f64; 3] {
         let [u, v] = self.sampled(pixel, raster);
         let spread = if self.is_orthographic() { 1.0 } else { depth };
         std::array::from_fn(|i| self.eye[i] + depth * self.forward[i] + spread * (u * self.right[i] + v * self.up[i]))
     }
 
-    /// Distance along a pixel's ray in which the depth grows by one.
+    /// Returns the distance along a pixel's ray in which the depth grows by one.
     pub fn ray_length(&self, pixel: [u32; 2], raster: Raster) -> f64 {
         let [u, v] = self.sampled(pixel, raster);
         if self.is_orthographic() { 1.0 } else { (1.0 + u * u + v * v).sqrt() }
     }
 
-    /// Where a point is seen, in pixels, and its depth. The place is NaN where it is behind a perspective camera.
+    /// Returns a point's place in pixels, and its depth. The place is NaN if the point is behind a perspective camera.
     pub fn project(&self, point: [f64; 3], raster: Raster) -> ([f64; 2], f64) {
         let offset: [f64; 3] = std::array::from_fn(|i| point[i] - self.eye[i]);
         let depth = dot(offset, self.forward);
@@ -195,11 +196,11 @@ impl Camera {
         (raster.place([0, 1].map(|i| lateral[i] / self.slope() - self.shift[i])), depth)
     }
 
-    /// How far a point at rest, seen in this pixel at this depth, was from there in another camera's image: x right, y down.
-    /// NaN where it was behind that camera.
+    /// Returns the motion of a point at rest, seen in this pixel at this depth, to its place in another camera's image:
+    /// x right, y down. NaN if it was behind that camera.
     pub fn motion_to(&self, before: &Self, pixel: [u32; 2], depth: f64, raster: Raster) -> [f64; 2] {
         let (then, _) = before.project(self.position(pixel, depth, raster), raster);
-        // Without either frame's jitter.
+        // Both frames' jitter is excluded.
         std::array::from_fn(|i| then[i] - f64::from(pixel[i]) - 0.5 - self.jitter[i])
     }
 }

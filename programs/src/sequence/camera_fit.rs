@@ -1,80 +1,83 @@
-//! A camera from what it saw, where nobody wrote it down.
+//! Fit of a camera to normals and depths, for files without any camera.
 //!
-//! The point of an image point (x, y) at depth z is z·(c + x·a + y·b) in a perspective, z·c + x·a + y·b in an orthographic view, but for the eye.
-//! Two points p and q of a plane with the normal n satisfy n·(p − q) = 0. The camera's directions and its field of view, four numbers, are
-//! fitted so that the squares of that over many pairs are least (Levenberg 1944). Only normals and depths are used: it is a camera in the
-//! normals' own space, whatever that is, and where it stands remains unknown. Directions that no plane tells are as good as any. A field of view
-//! that no plane tells, as none does that is seen squarely, is said to be undetermined.
+//! The pixel at the image point (x, y) sees, at depth z and relative to the eye, the point z·(c + x·a + y·b) in a
+//! perspective, and z·c + x·a + y·b in an orthographic view. Two points p and q of a plane with the normal n satisfy
+//! n·(p − q) = 0. The fit minimizes the sum of the squares of that over many pairs (Levenberg 1944). Its unknowns are
+//! four numbers: the camera's directions and its field of view. It uses only normals and depths, so the camera is in
+//! the normals' own space, and its position remains unknown. If no plane determines a direction, any is as good as
+//! another. If no plane determines the field of view, it is reported as undetermined: a plane seen squarely, for
+//! example, does not.
 
 use crate::sequence::camera::{Camera, Lens, Raster, dot};
 
-/// About how many pixels of an image are looked at.
+/// Approximate number of pixels of an image to use.
 const PIXELS: usize = 30_000;
 
 /// Fewest pairs to trust.
 const ENOUGH: usize = 200;
 
-/// Largest part of the squared distances between the points that may be left out of their planes.
+/// Largest part of the squared distances between the points that may remain as squared distances from their planes.
 pub const RESIDUAL: f64 = 1e-3;
 
-/// The part of the surfaces that must face the camera.
+/// Part of the surfaces that must face the camera.
 const FACING: f64 = 0.98;
 
-/// Squared distance from the planes that a zoom by a factor e must add, over that between the points, for the field of view to be determined.
+/// Squared distance from the planes that a zoom by a factor e must add, over that between the points, for the field of
+/// view to be determined.
 const DETERMINED: f64 = 1e-3;
 
-/// Slanted pairs that lie on a plane in an orthographic view, over those that do in a perspective, from which on it is one.
+/// Ratio of slanted pairs on planes, orthographic to perspective, above which a view is orthographic.
 const FLATTER: f64 = 1.3;
 
-/// Difference of two depths, in parts of them, from which on a pair is slanted: four times what a plane may be off.
+/// Difference of two depths, in parts of them, from which on a pair is slanted: four times a plane's tolerance.
 const SLANTED: f64 = 4e-3;
 
 /// Tangents of half a field of view that a camera may have: 1° to 174°.
 const SLOPES: std::ops::Range<f64> = 0.01..20.0;
 
-/// Vertical field of view with which directions are derived where nothing tells it, in radians.
+/// Vertical field of view, in radians, that the directions are derived with if it is undetermined.
 const ASSUMED_FOV_Y: f64 = std::f64::consts::FRAC_PI_4;
 
-/// A residual that is rounding.
+/// Residual that counts as rounding.
 const NOTHING: f64 = 1e-9;
 
-/// Slopes among which that of distances along the rays is searched.
+/// Number of slopes that the search for distances along the rays tries.
 const TRIED_SLOPES: i32 = 48;
 
-/// c, a and b, nine numbers.
+/// The vectors c, a and b, nine numbers.
 type Rays = [f64; 9];
 
-/// A camera that was found.
+/// A fitted camera.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
     pub camera: Camera,
-    /// Whether its field of view follows from the image.
+    /// True if the image determines the field of view.
     pub determined: bool,
     /// Squared distances from the planes over those between the points.
     residual: f64,
 }
 
-/// What is known of a view before the fit.
+/// Data of a view before the fit.
 #[derive(Clone, Copy)]
 struct View {
     raster: Raster,
     orthographic: bool,
-    /// A field of view that is not to be changed.
+    /// Slope of a field of view that the fit must keep.
     slope: Option<f64>,
-    /// Of the lens against the picture.
+    /// Shift of the lens against the picture.
     shift: [f64; 2],
 }
 
-/// What pairs of points ask of the rays.
+/// Conditions on the rays from pairs of points.
 struct Planes {
     view: View,
-    /// Of the squared distances from the planes, as a quadratic form.
+    /// Squared distances from the planes, as a quadratic form.
     apart: [[f64; 9]; 9],
-    /// Of the squared distances between the points.
+    /// Squared distances between the points, as a quadratic form.
     between: [[f64; 3]; 3],
-    /// Normals, and where they were seen.
+    /// Normals, and their places in the image.
     seen: Vec<([f64; 3], [f64; 3])>,
-    /// Pairs whose depths differ: a plane that is seen squarely is one in either kind of view.
+    /// Number of pairs with different depths: a plane seen squarely is a plane in either kind of view.
     slanted: usize,
 }
 
@@ -82,8 +85,8 @@ struct Planes {
 #[derive(Clone, Copy)]
 struct Guess([[f64; 3]; 3], f64);
 
-/// Fits a camera to the normals and depths of an image; `None` where they do not tell. Depths may be distances along the rays. A slope that is given is
-/// kept.
+/// Fits a camera to the normals and depths of an image; `None` if they do not determine one. Depths may be distances
+/// along the rays. A given slope is kept.
 pub fn fit(normals: &[f32], depths: &[f32], raster: Raster, along_ray: bool, slope: Option<f64>) -> Option<Fit> {
     let view = View { raster, orthographic: false, slope, shift: [0.0; 2] };
     if along_ray {
@@ -95,15 +98,16 @@ pub fn fit(normals: &[f32], depths: &[f32], raster: Raster, along_ray: bool, slo
     if parallel.slanted as f64 > FLATTER * planes.slanted as f64 {
         return parallel.fit().filter(|fit| fit.determined);
     }
-    // Along a zoom that changes nothing, a guess drifts: then it is kept where it was.
+    // If a zoom changes nothing, a guess drifts along it: a second fit then keeps the slope.
     planes.fit().filter(|fit| fit.determined || slope.is_some()).or_else(|| {
         let kept = Planes { view: View { slope: Some(raster.slope_of(ASSUMED_FOV_Y)), ..view }, ..planes };
         kept.fit().map(|fit| Fit { determined: false, ..fit })
     })
 }
 
-/// How far surfaces are off their planes as a camera sees them, if their normals are those of the space that it stands in, or of its own space, looking along
-/// −Z or +Z: squared distances over those between the points. `None` where too few planes tell.
+/// Returns how far surfaces are off their planes for a camera, as squared distances over those between the points. The
+/// three values take the normals in the space of the camera's position, and in its own space, looking along −Z or +Z.
+/// `None` if there are too few planes.
 pub fn residuals(normals: &[f32], depths: &[f32], raster: Raster, camera: &Camera) -> Option<[f64; 3]> {
     let view =
         View { raster, orthographic: camera.is_orthographic(), slope: Some(camera.slope()), shift: camera.shift };
@@ -111,7 +115,7 @@ pub fn residuals(normals: &[f32], depths: &[f32], raster: Raster, camera: &Camer
     let planes = Planes::new(normals, &depths, view);
     let own = |sign: f64| [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, sign]];
     let guesses = [[camera.right, camera.up, camera.forward], own(-1.0), own(1.0)];
-    // A surface that faces away is none.
+    // A space in which surfaces face away is impossible.
     let residual = |axes| {
         let guess = Guess(axes, camera.slope());
         if planes.facing(&guess) >= FACING { planes.residual(&guess) } else { f64::MAX }
@@ -119,7 +123,8 @@ pub fn residuals(normals: &[f32], depths: &[f32], raster: Raster, camera: &Camer
     (planes.seen.len() >= ENOUGH).then(|| guesses.map(residual))
 }
 
-/// As [`fit`]. Depths follow from distances and a field of view: the one with which most pairs lie on planes, and they best.
+/// Fits a camera as [`fit`] does. Depths follow from distances and a field of view: the search takes the one with most
+/// pairs on planes, and among its neighbours the one with the least residual.
 fn fit_distances(normals: &[f32], distances: &[f32], view: View) -> Option<Fit> {
     let planes_with = |slope: f64| {
         let depth = |(i, &d): (usize, &f32)| {
@@ -132,7 +137,7 @@ fn fit_distances(normals: &[f32], distances: &[f32], view: View) -> Option<Fit> 
     if let Some(slope) = view.slope {
         return planes_with(slope).fit();
     }
-    // 0.05…5, evenly in its logarithm.
+    // 0.05…5, evenly in the logarithm.
     let slope_at = |step: f64| 0.05 * 100_f64.powf(step / f64::from(TRIED_SLOPES));
     let count = |step: f64| planes_with(slope_at(step)).seen.len();
     let best = (0..=TRIED_SLOPES).max_by_key(|&step| count(step.into()))?;
@@ -144,7 +149,7 @@ fn fit_distances(normals: &[f32], distances: &[f32], view: View) -> Option<Fit> 
         if residual(thirds[0]) < residual(thirds[1]) { high = thirds[1] } else { low = thirds[0] }
     }
     let fit = planes_with(slope_at(0.5 * (low + high))).fit()?;
-    // Away from it, fewer pairs lie on planes: where that is not so, nothing tells.
+    // Other slopes have fewer pairs on planes; if they do not, the field of view is undetermined.
     let beside = count((best + 8).into()).max(count((best - 8).into()));
     Some(Fit { determined: 2 * beside < planes_with(fit.camera.slope()).seen.len(), ..fit })
 }
@@ -160,9 +165,9 @@ impl Planes {
             [1.0, x + view.shift[0], y + view.shift[1]]
         };
         let mut planes = Self { view, apart: [[0.0; 9]; 9], between: [[0.0; 3]; 3], seen: Vec::new(), slanted: 0 };
-        // Far enough apart that the rounding of depths does not count, and near enough to be of one plane.
+        // The span is wide enough to exceed the rounding of depths, and narrow enough to stay within one plane.
         let span = 2 * (width.min(height) / 36).max(4);
-        // Odd, so that all columns have their turn.
+        // The step is odd, so that it visits all columns.
         let every = (width * height / PIXELS) | 1;
         for (p, step) in (0..width * height).step_by(every).flat_map(|p| [(p, 1), (p, width)]) {
             let within = if step == 1 { p % width + span < width } else { p / width + span < height };
@@ -173,7 +178,7 @@ impl Planes {
             let n = normal(p);
             let [z_p, z_q] = [p, q].map(|i| depths[i]);
             let [at_p, at_q] = [p, q].map(point);
-            // In parts of the depth, so that what is far does not count more.
+            // In parts of the depth, so that distant points do not count more.
             let offset: [f64; 3] = if view.orthographic {
                 std::array::from_fn(|k| if k == 0 { z_q - z_p } else { at_q[k] - at_p[k] })
             } else {
@@ -188,7 +193,7 @@ impl Planes {
         planes
     }
 
-    /// The camera that fits best.
+    /// Returns the camera that fits best.
     fn fit(&self) -> Option<Fit> {
         let fitted = starts(self.view.slope.unwrap_or(0.5)).map(|guess| self.refine(guess));
         let fitting =
@@ -201,7 +206,7 @@ impl Planes {
         let Guess(axes, slope) = guess;
         let lens = if self.view.orthographic { Lens::Orthographic(slope) } else { Lens::Perspective(slope) };
         let determined = self.zoom(&guess) >= DETERMINED;
-        // Where all rays are one, all points lie on planes.
+        // If all rays coincide, all points lie on planes.
         let spreads = self.view.orthographic || SLOPES.contains(&slope);
         (residual <= RESIDUAL && spreads).then(|| Fit { camera: Camera::looking(axes, lens), determined, residual })
     }
@@ -216,30 +221,30 @@ impl Planes {
         std::array::from_fn(|i| self.apart[i].iter().zip(rays).map(|(m, x)| m * x).sum())
     }
 
-    /// The squared distances from the planes over those between the points.
+    /// Returns the squared distances from the planes over those between the points.
     fn residual(&self, guess: &Guess) -> f64 {
         let rays = self.rays(guess);
         inner(&rays, &self.times(&rays)) / self.between(&rays)
     }
 
-    /// The squared distances between the points.
+    /// Returns the squared distances between the points.
     fn between(&self, rays: &Rays) -> f64 {
         let ray = |k: usize| [rays[3 * k], rays[3 * k + 1], rays[3 * k + 2]];
         let pairs = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
         pairs.map(|(k, l)| self.between[k][l] * dot(ray(k), ray(l))).sum::<f64>().max(1e-300)
     }
 
-    /// The part of the surfaces whose normals point towards the camera.
+    /// Returns the part of the surfaces whose normals point towards the camera.
     fn facing(&self, guess: &Guess) -> f64 {
         let rays = self.rays(guess);
-        // Rays of an orthographic view all look forward.
+        // Rays of an orthographic view all point forward.
         let terms = if self.view.orthographic { 3 } else { 9 };
         let towards =
             |(n, at): &&([f64; 3], [f64; 3])| (0..terms).map(|i| rays[i] * at[i / 3] * n[i % 3]).sum::<f64>() < 0.0;
         self.seen.iter().filter(towards).count() as f64 / self.seen.len().max(1) as f64
     }
 
-    /// How the rays change by a turn about each axis, and by a zoom.
+    /// Returns the derivatives of the rays by a turn about each axis, and by a zoom.
     fn slopes(&self, rays: &Rays) -> [Rays; 4] {
         let parts = |k: usize| [rays[3 * k], rays[3 * k + 1], rays[3 * k + 2]];
         std::array::from_fn(|k| match k {
@@ -248,13 +253,14 @@ impl Planes {
         })
     }
 
-    /// What a zoom adds to the squared distances from the planes that no turn takes away, over those between the points.
+    /// Returns the part of a zoom's squared distances from the planes that no turn compensates, over those between the
+    /// points.
     fn zoom(&self, guess: &Guess) -> f64 {
         let rays = self.rays(guess);
         let slopes = self.slopes(&rays);
         let curved = slopes.map(|slope| self.times(&slope));
         let form = |i: usize, j: usize| inner(&slopes[i], &curved[j]);
-        // A little is added to the turns, as one that changes nothing has no inverse.
+        // A small term is added to the turns, because a turn that changes nothing has no inverse.
         let least = 1e-12 * (form(0, 0) + form(1, 1) + form(2, 2)) + 1e-300;
         let equations: [[f64; 5]; 4] = std::array::from_fn(|i| {
             std::array::from_fn(|j| match (i, j) {
@@ -269,7 +275,7 @@ impl Planes {
         zoom / self.between(&rays)
     }
 
-    /// Turns and zooms a guess for as long as that leaves less.
+    /// Turns and zooms a guess as long as the residual decreases.
     fn refine(&self, mut guess: Guess) -> Guess {
         let mut damping = 1e-2;
         for _ in 0..60 {
@@ -278,7 +284,7 @@ impl Planes {
             let push = self.times(&rays);
             let curved = slopes.map(|slope| self.times(&slope));
             let kept = self.view.slope.is_some();
-            // A turn that changes nothing, as that about the normal of the only plane, is left alone.
+            // A turn that changes nothing, such as that about the normal of the only plane, is left alone.
             let least = 1e-9 * (0..4).map(|i| inner(&slopes[i], &curved[i])).sum::<f64>();
             let equations: [[f64; 5]; 4] = std::array::from_fn(|i| {
                 std::array::from_fn(|j| match j {
@@ -306,7 +312,7 @@ fn is_mirrored(&Guess([right, up, forward], _): &Guess) -> bool {
     dot(cross(right, up), forward) > 0.0
 }
 
-/// Cameras along and between all axes: the fit goes downhill from them.
+/// Returns cameras along and between all axes, from which the fit descends.
 fn starts(slope: f64) -> impl Iterator<Item = Guess> {
     let axes = (0..6).map(|i| {
         let mut axis = [0.0; 3];
@@ -321,13 +327,14 @@ fn starts(slope: f64) -> impl Iterator<Item = Guess> {
     })
 }
 
-/// Whether three pixels in a row are of one plane: one normal, and 1/z is linear in the image, or z in an orthographic view.
+/// True if three pixels in a row belong to one plane: they have one normal, and 1/z is linear in the image, or z in an
+/// orthographic view.
 fn is_plane([p, m, q]: [usize; 3], normal: &impl Fn(usize) -> [f64; 3], depths: &[f64], orthographic: bool) -> bool {
     let z = [p, m, q].map(|i| depths[i]);
     let n = normal(p);
     let alike = |i: usize| dot(n, normal(i)) > 0.9995;
     let hit = z.iter().all(|z| *z > 0.0 && *z < 1e9) && (dot(n, n) - 1.0).abs() < 0.01;
-    // The slope counts, so that a wall that is seen squarely speaks for neither.
+    // The slope counts, so that a wall seen squarely favours neither.
     let off = if orthographic { 0.5 * (z[0] + z[2]) / z[1] - 1.0 } else { z[1] * (0.5 / z[0] + 0.5 / z[2]) - 1.0 };
     hit && alike(m) && alike(q) && off.abs() < 1e-3
 }
@@ -344,20 +351,20 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// How a vector changes with a turn about an axis.
+/// Returns the derivative of a vector by a turn about an axis.
 fn turned(axis: usize, v: [f64; 3]) -> [f64; 3] {
     let mut about = [0.0; 3];
     about[axis] = 1.0;
     cross(about, v)
 }
 
-/// A vector turned a little.
+/// Turns a vector by a small angle.
 fn moved(v: [f64; 3], by: [f64; 3]) -> [f64; 3] {
     let turn = cross(by, v);
     std::array::from_fn(|i| v[i] + turn[i])
 }
 
-/// Right and up at right angles, of length 1, and forward so that the handedness is as in the starts.
+/// Makes right and up perpendicular and of length 1, and gives forward the handedness of the starts.
 fn right_angled([right, up, _]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let unit = |v: [f64; 3]| v.map(|x| x / dot(v, v).sqrt());
     let right = unit(right);

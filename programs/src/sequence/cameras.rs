@@ -1,14 +1,14 @@
-//! The cameras of a sequence that nobody wrote down beside it: from attributes, or from what the frames show.
+//! Cameras of a sequence without a manifest: from attributes, or from the images of the frames.
 
 use super::camera_fit::{Fit, fit};
 use super::layers::{Layer, Meaning};
 use super::{Eye, Frame, Sequence, interleave};
 use crate::sequence::camera::Camera;
 
-/// What is taken where nothing tells.
+/// Default vertical field of view, in radians, if it is undetermined.
 const DEFAULT_FOV_Y: f32 = std::f32::consts::FRAC_PI_4;
 
-/// What a frame tells of its camera.
+/// Camera data of a frame.
 pub enum Seen {
     Described(Camera),
     Fitted(Fit),
@@ -26,7 +26,7 @@ impl Seen {
 }
 
 impl Sequence {
-    /// What a frame tells of its camera.
+    /// Returns the camera data of a frame.
     pub(super) fn see(&self, frame: &Frame) -> Seen {
         if let Some(camera) = frame.described {
             return Seen::Described(camera);
@@ -39,7 +39,7 @@ impl Sequence {
         let (Some((normals, _)), Some((depths, meaning))) = (samples(Layer::Normal), samples(Layer::Depth)) else {
             return Seen::Nothing;
         };
-        // Some programs have depths below 0.
+        // Some programs write negative depths.
         let below = depths.iter().all(|z| *z <= 0.0);
         let depths: Vec<f32> = depths.into_iter().map(|z| if below { -z } else { z }).collect();
         let raster = frame.raster();
@@ -48,7 +48,7 @@ impl Sequence {
         fit(&normals, &depths, raster, along_ray, slope).map_or(Seen::Nothing, Seen::Fitted)
     }
 
-    /// Cameras for all frames from what each tells, and the frames that borrow theirs.
+    /// Returns cameras for all frames, the source of the cameras, and the frames that borrow theirs.
     pub(super) fn cameras_of(&self, seen: &[Seen]) -> (Vec<Camera>, Eye, Vec<String>) {
         let borrowed = |tells: &dyn Fn(&Seen) -> bool| -> Vec<String> {
             let silent = seen.iter().zip(&self.files).filter(|(seen, _)| !tells(seen));
@@ -65,7 +65,7 @@ impl Sequence {
         if self.source.fov_y.is_some() {
             return (fits.iter().map(|fit| fit.camera).collect(), Eye::Turned, borrowed);
         }
-        // Frames in which the field of view shows lend it to the others.
+        // Frames with a determined field of view lend it to the others.
         let mut slopes: Vec<f64> = fits.iter().filter(|fit| fit.determined).map(|fit| fit.camera.slope()).collect();
         slopes.sort_by(f64::total_cmp);
         let (slope, eye) = match slopes.get(slopes.len() / 2) {
@@ -77,7 +77,7 @@ impl Sequence {
     }
 }
 
-/// What each frame tells, or the nearest one that tells anything; `None` if none does.
+/// Returns each frame's value, or that of the nearest frame with one; `None` if no frame has one.
 fn nearest<T: Copy>(seen: &[Seen], told: impl Fn(&Seen) -> Option<T>) -> Option<Vec<T>> {
     let told: Vec<Option<T>> = seen.iter().map(told).collect();
     let of = |i: usize| {

@@ -1,4 +1,4 @@
-//! The path tracer's own frames as a sequence, as `denoise` reads it.
+//! Export of the path tracer's own frames as a sequence for `denoise`.
 
 use crate::film::Film;
 use crate::sequence::camera::{Camera, Lens, Raster, dot};
@@ -9,10 +9,10 @@ use serde_json::json;
 use std::fs;
 use std::path::Path;
 
-/// Writes frames of one sequence, which have all the same layers.
+/// Writer of one sequence, whose frames all have the same layers.
 #[derive(Default)]
 pub struct Export {
-    /// Those of the first frame: it is new, so that nothing was left out of it.
+    /// Layers of the first frame: the denoiser is new then, and so has left nothing out.
     layers: Option<Vec<Layer>>,
 }
 
@@ -29,7 +29,7 @@ impl Export {
             }
             let pixels = match film.numbers(view) {
                 Ok(pixels) => pixels,
-                // Nothing changed: no path was repeated.
+                // Nothing changed, so no path was repeated.
                 Err(Error::NoView { .. }) if self.layers.is_some() && layer.is_of_pairs() => {
                     vec![[-1.0; 3]; (width * height) as usize]
                 }
@@ -47,10 +47,10 @@ impl Export {
     }
 }
 
-/// A layer's components in a pixel of a view.
+/// Function that picks a layer's components from a pixel of a view.
 type Components = fn([f32; 3]) -> [f32; 3];
 
-/// The view that holds a layer, and where in its pixels.
+/// Returns the view that holds a layer, and the components in its pixels.
 fn source(layer: Layer) -> Option<(View, Components)> {
     let same: Components = |pixel| pixel;
     Some(match layer {
@@ -68,7 +68,7 @@ fn source(layer: Layer) -> Option<(View, Components)> {
     })
 }
 
-/// Writes where the frames were seen from, beside them.
+/// Writes the cameras of the frames, beside them.
 pub fn write_manifest(folder: &Path, size: [u32; 2], cameras: &[asvgf::Camera]) -> Result<(), String> {
     let cameras: Vec<_> = cameras.iter().map(|&c| camera(c, size).to_json()).collect();
     let [width, height] = size;
@@ -79,7 +79,7 @@ pub fn write_manifest(folder: &Path, size: [u32; 2], cameras: &[asvgf::Camera]) 
     fs::write(&path, format!("{manifest:#}\n")).map_err(|e| format!("{}: cannot be written: {e}", path.display()))
 }
 
-/// The same camera by its directions.
+/// Returns the same camera by its directions.
 fn camera(seen: asvgf::Camera, size: [u32; 2]) -> Camera {
     let (eye, target, up) = (seen.eye, seen.target, seen.up.map(f64::from));
     let forward = unit(std::array::from_fn(|i| target[i] - eye[i]));

@@ -1,4 +1,4 @@
-//! The files of a sequence: which belong together, and in which order.
+//! Files of a sequence: their grouping, and their order.
 
 use super::{SequenceError, wrong};
 use std::collections::BTreeMap;
@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFile {
     pub number: i64,
-    /// The number as the name has it, zeros in front included.
+    /// The number as in the name, leading zeros included.
     pub digits: String,
     pub path: PathBuf,
 }
 
-/// The names of a sequence but for the number.
+/// A sequence's file name without the number.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Template {
     before: String,
@@ -27,10 +27,10 @@ impl Template {
     }
 }
 
-/// Longest number in a name: more digits are a date or a checksum.
+/// Most digits of a frame's number: more digits are a date or a checksum.
 const MOST_DIGITS: usize = 9;
 
-/// What stands in front of the numbers of files that are results or references, not frames.
+/// Names before the number that mark results or references, not frames.
 const NOT_FRAMES: [&str; 16] = [
     "denoised",
     "reference",
@@ -50,7 +50,7 @@ const NOT_FRAMES: [&str; 16] = [
     "light",
 ];
 
-/// The frames of a folder, of a pattern (`shot.####.exr`), or of the sequence that a file belongs to, in order.
+/// Returns the frames of a folder, of a pattern (`shot.####.exr`), or of the sequence that a file belongs to, in order.
 pub fn list(input: &Path) -> Result<Vec<FrameFile>, SequenceError> {
     let (folder, wanted) = if input.is_dir() {
         (input.to_owned(), None)
@@ -64,7 +64,7 @@ pub fn list(input: &Path) -> Result<Vec<FrameFile>, SequenceError> {
     };
     let entries = fs::read_dir(&folder).map_err(|e| wrong(&folder, format!("cannot be read: {e}")))?;
     let mut names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
-    // Names that begin with a dot are hidden, as those that macOS leaves beside files.
+    // Names with a leading dot are hidden files, such as those that macOS leaves beside files.
     names.retain(|name| name.to_lowercase().ends_with(".exr") && !name.starts_with('.'));
     names.sort();
     let (template, members) = match &wanted {
@@ -89,12 +89,13 @@ pub fn list(input: &Path) -> Result<Vec<FrameFile>, SequenceError> {
     Ok(files)
 }
 
-/// Those of the frames with numbers from one to another.
+/// Returns the frames with numbers from one to another.
 pub fn within(files: &[FrameFile], [from, to]: [i64; 2]) -> Vec<FrameFile> {
     files.iter().filter(|file| (from..=to).contains(&file.number)).cloned().collect()
 }
 
-/// The digits of the members of each sequence. Which of a name's numbers is the frame's: that in which most names differ, else the last.
+/// Groups names into sequences, with the digits of their members. A name's frame number is the one in which most names
+/// differ, else the last.
 fn groups(names: &[String]) -> BTreeMap<Template, Vec<String>> {
     let mut counts: BTreeMap<Template, usize> = BTreeMap::new();
     for (template, _) in names.iter().flat_map(|name| numbers(name)) {
@@ -110,7 +111,7 @@ fn groups(names: &[String]) -> BTreeMap<Template, Vec<String>> {
     groups
 }
 
-/// Each run of digits in a name, the last one last.
+/// Returns each run of digits in a name, the last one last.
 fn numbers(name: &str) -> Vec<(Template, String)> {
     let stem = name.len() - ".exr".len();
     let bytes = &name.as_bytes()[..stem];
@@ -119,7 +120,7 @@ fn numbers(name: &str) -> Vec<(Template, String)> {
     while at < stem {
         let digits = bytes[at..].iter().take_while(|b| b.is_ascii_digit()).count();
         if (1..=MOST_DIGITS).contains(&digits) {
-            // After another separator or in front, a dash is a sign.
+            // A dash is a sign at the start of the name, or after another separator.
             let signed = at > 0 && bytes[at - 1] == b'-' && (at == 1 || matches!(bytes[at - 2], b'_' | b'.' | b'-'));
             let first = at - usize::from(signed);
             let template = Template { before: name[..first].into(), after: name[at + digits..].into() };
@@ -132,7 +133,7 @@ fn numbers(name: &str) -> Vec<(Template, String)> {
 
 type Group<'a> = (&'a Template, &'a Vec<String>);
 
-/// The sequence of a folder: the one called frame_, else the only one that is not a result.
+/// Picks the sequence of a folder: the one called frame_, else the only one that is not a result.
 fn pick(groups: &BTreeMap<Template, Vec<String>>) -> Result<Group<'_>, String> {
     let usual = groups.iter().find(|(template, _)| template.before == "frame_" && template.after == ".exr");
     if let Some(usual) = usual {
@@ -161,7 +162,8 @@ fn pick(groups: &BTreeMap<Template, Vec<String>>) -> Result<Group<'_>, String> {
     }
 }
 
-/// The sequence of a pattern or of a file: of its numbers, the last one that other files differ in, else that of its group.
+/// Picks the sequence of a pattern or of a file. Its frame number is the last of its numbers in which other files
+/// differ, else the last of its numbers.
 fn pick_named(names: &[String], name: &str) -> Option<(Template, Vec<String>)> {
     let members = |wanted: &Template| -> Vec<String> {
         let of = |name: &String| {
@@ -178,16 +180,16 @@ fn pick_named(names: &[String], name: &str) -> Option<(Template, Vec<String>)> {
     Some((template.clone(), members(template)))
 }
 
-/// The step from frame to frame that most of them have.
+/// Returns the most frequent step from frame to frame.
 pub fn usual_step(files: &[FrameFile]) -> i64 {
     let steps: Vec<i64> = files.windows(2).map(|pair| pair[1].number - pair[0].number).collect();
     let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
     steps.iter().for_each(|&step| *counts.entry(step).or_default() += 1);
-    // Of equally many, the least.
+    // Among equally frequent steps, the least wins.
     counts.iter().rev().max_by_key(|(_, count)| **count).map_or(1, |(&step, _)| step)
 }
 
-/// Which frames do not follow the one before by a step.
+/// Returns the frames that do not follow the one before by the step.
 pub fn gaps(files: &[FrameFile], step: i64) -> Vec<usize> {
     (1..files.len()).filter(|&i| files[i].number - files[i - 1].number != step).collect()
 }

@@ -1,11 +1,12 @@
-//! What stands in for guides that a sequence has not.
+//! Substitutes for guides that a sequence lacks.
 
 use super::Pixels;
 use super::layers::Layer;
 use crate::sequence::camera::{Camera, Raster, dot};
 
-/// Gives a frame normals and depths. Without depths all is one wall that faces the camera, one unit away: edges are then told by normals, if there are
-/// any, by albedo and by light. Without normals they follow from the depths.
+/// Completes a frame with normals and depths. Without depths, everything is one wall that faces the camera, one unit
+/// away: the filter then finds edges by normals, if there are any, by albedo and by light. Without normals, they follow
+/// from the depths.
 pub fn complete(pixels: &mut Pixels, camera: &Camera, raster: Raster) {
     let count = (raster.size[0] * raster.size[1]) as usize;
     let facing = [0.0, 0.0, 1.0];
@@ -14,7 +15,7 @@ pub fn complete(pixels: &mut Pixels, camera: &Camera, raster: Raster) {
         pixels.set(Layer::Depth, Some(vec![1.0; count]));
         pixels.set(Layer::PreviousDepth, Some(vec![1.0; count]));
         if let Some(normals) = pixels.0[Layer::Normal as usize].as_mut() {
-            // What has no normal is a surface as well: whether it is, only a depth tells.
+            // A pixel without a normal becomes a surface as well, because only a depth could show a miss.
             let (normals, _) = normals.as_chunks_mut::<3>();
             normals.iter_mut().filter(|n| dot(n.map(f64::from), n.map(f64::from)) < 1e-12).for_each(|n| *n = facing);
         }
@@ -37,8 +38,8 @@ pub fn complete(pixels: &mut Pixels, camera: &Camera, raster: Raster) {
     }
 }
 
-/// The normals of the surfaces through neighbouring points: of the two differences to each side the one that bends less, so that none is taken
-/// across an edge.
+/// Returns the normals of the surfaces through neighbouring points. Of the two differences along each axis, it takes
+/// the one that bends less, so that none crosses an edge.
 fn normals_of(depths: &[f32], camera: &Camera, raster: Raster) -> Vec<f32> {
     let [width, height] = raster.size.map(|side| side as i32);
     let depth = |x: i32, y: i32| {
@@ -51,7 +52,7 @@ fn normals_of(depths: &[f32], camera: &Camera, raster: Raster) -> Vec<f32> {
         let here = point(x, y)?;
         let side = |sign: i32| {
             let next = point(x + sign * dx, y + sign * dy)?;
-            // By how much the step after it differs.
+            // Bend: the difference between this step and the next one.
             let bend = point(x + 2 * sign * dx, y + 2 * sign * dy)
                 .map_or(f64::MAX, |far| minus(minus(far, next), minus(next, here)).iter().map(|d| d * d).sum());
             Some((bend, minus(next, here).map(|d| d * f64::from(sign))))
@@ -63,7 +64,7 @@ fn normals_of(depths: &[f32], camera: &Camera, raster: Raster) -> Vec<f32> {
     for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
         let normal = along(x, y, [1, 0]).zip(along(x, y, [0, 1])).map(|(across, down)| {
             let n = cross(down, across);
-            // Towards the camera, as mirrored cameras turn it over.
+            // The normal points towards the camera; mirrored cameras would flip it.
             let here = point(x, y).unwrap_or_default();
             let ray = if camera.is_orthographic() { camera.forward } else { minus(here, camera.eye) };
             let side = if dot(n, ray) > 0.0 { -1.0 } else { 1.0 };

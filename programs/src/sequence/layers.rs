@@ -1,8 +1,8 @@
-//! The layers of a frame, and the names that channels have for them in the files of several renderers.
+//! Layers of a frame, and the names of their channels in the files of several renderers.
 
 use asvgf::image_io::Channels;
 
-/// Something that is known of every pixel.
+/// A quantity of every pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Layer {
@@ -19,10 +19,10 @@ pub enum Layer {
     Lambda,
 }
 
-/// How numbers differ from those of the format.
+/// Differences of numbers from those of the format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
-    /// They do not.
+    /// No difference.
     Same,
     /// The second component points up in the image.
     Upwards,
@@ -30,8 +30,8 @@ pub enum Meaning {
     AlongRay,
 }
 
-/// A name that other programs have for a layer, its channels, and what they hold. The name is without the view layer in front; without
-/// a name, the channels are the layer's own.
+/// A name of other programs for a layer, its channels, and their meaning. The name excludes the view layer in front;
+/// without a name, the channels are the layer's own.
 struct Alias(&'static str, &'static [&'static str], Meaning);
 
 const RGB: &[&str] = &["R", "G", "B"];
@@ -53,7 +53,7 @@ impl Layer {
         Self::Lambda,
     ];
 
-    /// What it is called; what stands before the dot in its channels' names, but for the colour.
+    /// Returns the name, which precedes the dot in the names of all channels except the colour's.
     pub fn name(self) -> &'static str {
         match self {
             Self::Color => "color",
@@ -70,7 +70,7 @@ impl Layer {
         }
     }
 
-    /// The last parts of its channels' names.
+    /// Returns the last parts of the channels' names.
     pub fn components(self) -> &'static [&'static str] {
         match self {
             Self::Color | Self::Albedo | Self::Emission | Self::GradientCurrent | Self::GradientPrevious => RGB,
@@ -82,22 +82,23 @@ impl Layer {
         }
     }
 
-    /// Whether it holds what paths were repeated, of which a frame may have none.
+    /// True if it holds repeated paths, of which a frame may have none.
     pub fn is_of_pairs(self) -> bool {
         matches!(self, Self::GradientCurrent | Self::GradientPrevious)
     }
 
-    /// The full names of its channels.
+    /// Returns the full names of the channels.
     pub fn channels(self) -> Vec<String> {
         let front = if self == Self::Color { "" } else { self.name() };
         self.components().iter().map(|component| join(front, component)).collect()
     }
 
-    /// What it is called here and by renderers, best first. Names that a renderer leaves to its user are those of its manual.
+    /// Returns the names here and in renderers, best first. For a name that the user chooses in a renderer, the list
+    /// has that of the renderer's manual.
     fn aliases(self) -> &'static [Alias] {
         use Meaning::*;
         match self {
-            // Blender's Combined was denoised already where the Noisy Image stands beside it.
+            // If Noisy Image exists, Blender's Combined is denoised already.
             Self::Color => &[
                 Alias("", RGB, Same),
                 Alias("color", RGB, Same),
@@ -161,31 +162,31 @@ impl Layer {
     }
 }
 
-/// Where a user says that a layer is.
+/// The user's mapping of a layer to channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mapping {
     pub layer: Layer,
-    /// The name before the last dot of its channels, or all of their names.
+    /// The name before the last dot of its channels, or the names of all its channels.
     pub names: Vec<String>,
-    /// What the numbers are, if that was said.
+    /// Meaning of the numbers, if the user gave one.
     pub meaning: Option<Meaning>,
 }
 
-/// Names of a user's own.
+/// The user's own names.
 pub type Names = Vec<Mapping>;
 
-/// Where a layer is in a file: the numbers of its channels.
+/// Place of a layer in a file: the numbers of its channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     pub channels: Vec<usize>,
     pub meaning: Meaning,
 }
 
-/// Where all layers are, in the order of [`Layer::ALL`].
+/// Places of all layers, in the order of [`Layer::ALL`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Places {
     pub of: Vec<Option<Place>>,
-    /// The view layer that they were taken from, and the others that the file has.
+    /// View layer of the places, and the others in the file.
     pub view_layer: String,
     pub others: Vec<String>,
 }
@@ -196,11 +197,11 @@ impl Places {
     }
 }
 
-/// The view layer of Blender's compositor: an image that was put together, with nobody's guides.
+/// View layer of Blender's compositor: a composed image that no guides belong to.
 const COMPOSITE: &str = "composite";
 
-/// Finds all layers in a file. All are taken from one view layer: the first that has colour, normals and depth, else the first that has colour,
-/// unless one is asked for. The error says what is missing.
+/// Finds all layers in a file. All come from one view layer: the requested one, else the first that has colour, normals
+/// and depth, else the first that has colour. The error says what is missing.
 pub fn find(names: &Names, view_layer: Option<&str>, image: &Channels) -> Result<Places, String> {
     let fronts = fronts(image);
     let found: Vec<Vec<Option<Place>>> = fronts.iter().map(|front| in_view_layer(front, image)).collect();
@@ -225,7 +226,7 @@ pub fn find(names: &Names, view_layer: Option<&str>, image: &Channels) -> Result
     for mapping in names {
         of[mapping.layer as usize] = Some(own(mapping, image)?);
     }
-    // Some of the format's own channels, but not all.
+    // Rejects a file that has some of a layer's own channels, but not all.
     for layer in Layer::ALL.into_iter().filter(|&layer| of[layer as usize].is_none()) {
         let (there, absent): (Vec<_>, Vec<_>) = layer.channels().into_iter().partition(|n| image.get(n).is_some());
         if let (Some(there), Some(absent)) = (there.first(), absent.first()) {
@@ -242,7 +243,7 @@ pub fn find(names: &Names, view_layer: Option<&str>, image: &Channels) -> Result
     Ok(Places { of, view_layer: fronts[chosen].trim_end_matches('.').to_owned(), others })
 }
 
-/// What stands in front of known names, in the order of the file; nothing is the first.
+/// Returns the prefixes of known names, in the order of the file; the empty prefix is the first.
 fn fronts(image: &Channels) -> Vec<String> {
     let mut fronts = vec![String::new()];
     for (name, _) in &image.channels {
@@ -256,16 +257,16 @@ fn fronts(image: &Channels) -> Vec<String> {
     fronts
 }
 
-/// What stands in front of a name, a dot at its end included.
+/// Returns the prefix of a name, a dot at its end included.
 fn front_of<'a>(full: &'a str, name: &str) -> Option<&'a str> {
-    // Names are told apart by letters alone, but in front of them nothing is changed.
+    // The comparison of names ignores spelling variants; the prefix stays unchanged.
     (0..full.len()).filter(|&at| at == 0 || full.as_bytes()[at - 1] == b'.').find_map(|at| {
         let rest = full.get(at..)?;
         (plain(rest) == plain(name)).then(|| &full[..at])
     })
 }
 
-/// A name without what programs write in several ways.
+/// Removes spelling variants from a name.
 fn plain(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, ' ' | '_')).flat_map(char::to_lowercase).collect()
 }
@@ -287,7 +288,7 @@ fn in_view_layer(front: &str, image: &Channels) -> Vec<Option<Place>> {
     Layer::ALL.into_iter().map(of).collect()
 }
 
-/// A layer under a name of the user's: the names of its channels, of its one channel, or what stands before the components.
+/// Finds a layer by the user's names: of its channels, of its one channel, or the part before the components.
 fn own(mapping: &Mapping, image: &Channels) -> Result<Place, String> {
     let Mapping { layer, names, meaning } = mapping;
     let count = layer.components().len();
@@ -321,7 +322,7 @@ fn own(mapping: &Mapping, image: &Channels) -> Result<Place, String> {
     Ok(Place { meaning: meaning.unwrap_or_else(|| inferred(*layer, first)), channels })
 }
 
-/// What numbers are by the last name of their channel, as a renderer would have called it.
+/// Returns the meaning of numbers that a renderer would have given a channel of this name.
 fn inferred(layer: Layer, channel: &str) -> Meaning {
     let aliases = layer.aliases().iter().filter(|Alias(name, ..)| !name.is_empty());
     let known = aliases.into_iter().find(|Alias(name, parts, _)| front_of(channel, &join(name, parts[0])).is_some());
@@ -336,12 +337,12 @@ fn inferred(layer: Layer, channel: &str) -> Meaning {
     }
 }
 
-/// The channels of exactly these names.
+/// Returns the channels of exactly these names.
 fn exact(names: &[String], image: &Channels) -> Option<Vec<usize>> {
     names.iter().map(|name| image.channels.iter().position(|(known, _)| known == name)).collect()
 }
 
-/// What there is to choose from.
+/// Lists the channels to choose from.
 pub fn known(image: &Channels) -> String {
     let names: Vec<&str> = image.channels.iter().map(|(name, _)| name.as_str()).collect();
     format!("the file has {}", names.join(", "))

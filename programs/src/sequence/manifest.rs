@@ -9,15 +9,15 @@ use std::path::Path;
 
 #[derive(Default)]
 pub struct Manifest {
-    /// One for each frame, or none.
+    /// One camera for each frame, or none.
     pub cameras: Vec<Camera>,
     /// Numbers of frames that begin another shot.
     pub cuts: Vec<i64>,
-    /// The gradient's paths stand in the colour in the place of their pixels' own.
+    /// True if the gradient's paths stand in the colour in the place of their pixels' own.
     pub in_place: bool,
 }
 
-/// Reads what it says of some of a folder's frames, which are usually a step apart, if there is one.
+/// Reads the manifest's data on some of a folder's frames, which are usually a step apart, if there is one.
 pub fn read(folder: &Path, all: &[FrameFile], files: &[FrameFile], step: i64) -> Result<Manifest, SequenceError> {
     let path = folder.join("manifest.json");
     if !path.exists() {
@@ -42,7 +42,8 @@ pub fn read(folder: &Path, all: &[FrameFile], files: &[FrameFile], step: i64) ->
     let (first, last) = (all[0].number, all[all.len() - 1].number);
     let span = ((last - first) / step) as usize + 1;
     let named = numbers(&json["frames"]).filter(|frames| frames.len() == list.len());
-    // By their numbers; one for all; one for each file; or one for each frame, those included that are missing.
+    // The cameras belong to the given numbers; else there is one for all, one for each file, or one for each frame,
+    // missing frames included.
     let index = |file: &FrameFile| match &named {
         Some(frames) => frames.iter().position(|number| *number == file.number),
         None if list.len() == 1 => Some(0),

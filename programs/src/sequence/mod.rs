@@ -1,4 +1,4 @@
-//! A sequence of frames as a renderer wrote it: its files, its layers, its cameras, and what `manifest.json` says of them.
+//! A sequence of frames from a renderer: its files, its layers, its cameras, and the data of `manifest.json`.
 
 pub mod camera;
 pub mod camera_fit;
@@ -21,7 +21,7 @@ use pixels::Area;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-/// What is wrong with a sequence: which file, and what would do.
+/// An error of a sequence: the file, and a remedy.
 #[derive(Debug)]
 pub struct SequenceError(String);
 
@@ -37,14 +37,14 @@ fn wrong(file: &Path, reason: impl fmt::Display) -> SequenceError {
     SequenceError(format!("{}: {reason}", file.display()))
 }
 
-/// What is known of a sequence beforehand.
+/// Data on a sequence that the caller gives beforehand.
 #[derive(Clone, Debug, Default)]
 pub struct Source {
     /// A folder, a pattern such as `shot.####.exr`, or any of the frames.
     pub input: PathBuf,
-    /// Names of channels of a user's own.
+    /// The user's own names of channels.
     pub names: Names,
-    /// The view layer to take all channels from.
+    /// View layer of all channels.
     pub view_layer: Option<String>,
     /// Vertical field of view, in radians.
     pub fov_y: Option<f32>,
@@ -60,22 +60,22 @@ impl From<&Path> for Source {
     }
 }
 
-/// How the cameras are known.
+/// Source of the cameras.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Eye {
-    /// From the manifest.
+    /// The manifest gives them.
     Given,
-    /// From what the files say of them.
+    /// The attributes of the files describe them.
     Described,
-    /// From the frames themselves, but for where they are.
+    /// A fit to the frames, without positions.
     Fitted,
-    /// From the frames, with a field of view that was asked for or taken.
+    /// A fit to the frames, with a field of view that the user gave or that was assumed.
     Turned,
-    /// Not at all.
+    /// None: an assumed camera.
     Assumed,
 }
 
-/// Why a frame does not continue the one before.
+/// Reason why a frame does not continue the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Break {
     /// Frames are missing in between.
@@ -87,49 +87,49 @@ pub enum Break {
 /// Most columns and rows that all windows may span.
 const LARGEST: u32 = 16_384;
 
-/// What an albedo is at most before it is cleaned.
+/// Largest albedo before the cleaning.
 const MOST_ALBEDO: f32 = 16.0;
 
-/// Frames that were looked at, each: all are whole, are of one picture, and have the same layers.
+/// A sequence whose frames are checked one by one: all are whole, belong to one picture, and have the same layers.
 #[derive(Debug)]
 pub struct Sequence {
     source: Source,
     pub files: Vec<FrameFile>,
-    /// The usual step from one frame's number to the next one's.
+    /// Usual step from one frame's number to the next one's.
     pub step: i64,
-    /// Of each frame, why it does not continue the one before.
+    /// Reason why a frame does not continue the one before, for each frame.
     pub breaks: Vec<Option<Break>>,
-    /// Columns and rows that any frame has pixels in.
+    /// Columns and rows with pixels in any frame.
     pub size: [u32; 2],
-    /// Where these lie in the picture.
+    /// Place of these columns and rows in the picture.
     pub window: Window,
     pub raster: Raster,
-    /// What there is of every frame, in its files.
+    /// Layers that every frame's file has.
     pub layers: Vec<Layer>,
-    /// Layers, and the names of the channels that they were taken from in the first frame.
+    /// Layers, and the names of their channels in the first frame.
     pub taken: Vec<(Layer, String)>,
-    /// The view layer that they are of, and the others that there are.
+    /// View layer of these layers, and the others in the file.
     pub view_layer: String,
     pub other_view_layers: Vec<String>,
-    /// One for each frame, or one for all.
+    /// One camera for each frame, or one for all.
     pub cameras: Vec<Camera>,
-    /// How they are known.
+    /// Source of the cameras.
     pub eye: Eye,
-    /// Normals are in the camera's own space, which it looks along this sign of Z of.
+    /// If normals are in the camera's own space: the sign of the Z that the camera looks along.
     pub normals_of_view: Option<f64>,
-    /// What depths are multiplied with: −1 if all are below 0, as some programs have it.
+    /// Factor of depths: −1 if all are below 0, as some programs write them.
     pub depth_sign: f32,
-    /// There are depths, but all are 0.
+    /// True if the files have depths, but all are 0.
     pub blank_depth: bool,
-    /// Frames that tell nothing of their camera, and have that of the nearest one that does.
+    /// Frames without data on their camera, which have the camera of the nearest frame with such data.
     pub borrowed: Vec<String>,
-    /// The gradient's paths stand in the colour in the place of their pixels' own.
+    /// True if the gradient's paths stand in the colour in the place of their pixels' own.
     pub in_place: bool,
-    /// Pixels stand for areas, not for points, and why.
+    /// If pixels stand for areas and not for points: the evidence.
     pub area: Option<Area>,
 }
 
-/// One frame: the layers' samples, pixel by pixel.
+/// One frame: the samples of the layers, pixel by pixel.
 #[derive(Clone, Debug)]
 pub struct Pixels(pub Vec<Option<Vec<f32>>>);
 
@@ -143,20 +143,20 @@ impl Pixels {
     }
 }
 
-/// A frame that was read: its file, and what was found in it.
+/// A frame that was read: its file, and its layers there.
 struct Frame {
     window: Window,
     display: Window,
     aspect: f32,
     image: Channels,
     places: Places,
-    /// What its attributes tell of the camera.
+    /// Camera that its attributes describe.
     described: Option<Camera>,
     of_blender: bool,
 }
 
 impl Frame {
-    /// The window of its pixels in the picture.
+    /// Returns the window of its pixels in the picture.
     fn raster(&self) -> Raster {
         raster(self.window, self.display, self.aspect)
     }
@@ -169,7 +169,7 @@ fn raster(window: Window, display: Window, aspect: f32) -> Raster {
 }
 
 impl Sequence {
-    /// Looks at every frame, calling back after each with how many there are.
+    /// Opens a sequence and checks every frame. Calls back after each with the number of frames.
     pub fn open(source: impl Into<Source>, mut looked: impl FnMut(u32)) -> Result<Self, SequenceError> {
         let source = source.into();
         let all = files::list(&source.input)?;
@@ -192,7 +192,7 @@ impl Sequence {
         }
         let break_at = |(i, file): (usize, &FrameFile)| {
             let before = i.checked_sub(1).map(|before| files[before].number)?;
-            // A cut between two frames of a render on twos begins with the second.
+            // In a render on twos, a cut between two frames begins with the second.
             let is_cut = cuts.iter().any(|cut| (before + 1..=file.number).contains(cut));
             if is_cut { Some(Break::Cut) } else { gaps.contains(&i).then_some(Break::Gap) }
         };
@@ -220,7 +220,7 @@ impl Sequence {
         let given = !sequence.cameras.is_empty();
         let mut seen = Vec::new();
         let mut display = None;
-        // Depths above and below 0.
+        // Counts depths above and below 0.
         let mut signs = [0_usize; 2];
         let mut of_blender = false;
         for index in 0..count {
@@ -276,7 +276,7 @@ impl Sequence {
         self.layers.contains(&layer)
     }
 
-    /// Whether there are depths, so that surfaces are told apart and followed where they are.
+    /// True if there are depths, so that surfaces can be distinguished and followed to their places.
     pub fn has_surfaces(&self) -> bool {
         self.has(Layer::Depth)
     }
@@ -285,12 +285,12 @@ impl Sequence {
         self.cameras[index.min(self.cameras.len() - 1)]
     }
 
-    /// The file of a frame, with all that it holds.
+    /// Reads the file of a frame, with all its contents.
     pub fn file(&self, index: usize) -> Result<ExrFile, SequenceError> {
         ExrFile::read(&self.files[index].path).map_err(|e| SequenceError(e.to_string()))
     }
 
-    /// Names of the colour's channels among those of a frame.
+    /// Returns the names of the colour's channels among those of a frame.
     pub fn color_names(&self, index: usize, image: &Channels) -> Result<Vec<String>, SequenceError> {
         let places = self.places(&self.files[index].path, image)?;
         let color = places.get(Layer::Color).map(|place| place.channels.clone()).unwrap_or_default();
@@ -304,7 +304,7 @@ impl Sequence {
         let count = (self.size[0] * self.size[1]) as usize;
         let samples = Layer::ALL.into_iter().zip(&frame.places.of).map(|(layer, place)| match place {
             Some(place) => Some(self.samples(place, &frame, &camera)),
-            // There is no pair in this frame.
+            // This frame has no pair.
             None if self.has(layer) && layer.is_of_pairs() => Some(vec![-1.0; layer.components().len() * count]),
             None => None,
         });
@@ -316,7 +316,8 @@ impl Sequence {
             depths.iter_mut().for_each(|z| *z *= self.depth_sign);
         }
         if let Some(albedo) = pixels.0[Layer::Albedo as usize].as_mut() {
-            // Filters of pixels have lobes below 0, and paths through metal values of any size: neither is more black or more white for that.
+            // Clamped, because pixel filters have lobes below 0, and paths through metal yield values of any size: neither
+            // makes a surface darker than black or brighter than white.
             albedo.iter_mut().filter(|x| x.is_finite()).for_each(|x| *x = x.clamp(0.0, MOST_ALBEDO));
         }
         if let (Some(sign), Some(normals)) = (self.normals_of_view, pixels.0[Layer::Normal as usize].as_mut()) {
@@ -330,8 +331,9 @@ impl Sequence {
         Ok(pixels)
     }
 
-    /// Whether normals are in the cameras' own space, by planes in the frame whose camera is turned most against it. Failure: pbrt writes where the camera is in
-    /// the world, and normals as the camera has them; planes were then none. Rule: what fits four times as well is meant.
+    /// Returns the sign of Z if normals are in the cameras' own space. The test fits planes in the frame whose camera
+    /// is turned farthest from the axes. Failure: pbrt writes the camera in the world, and normals in the camera's
+    /// space; with world normals, no planes were found. Rule: the space that fits four times as well is the right one.
     fn space_of_normals(&self) -> Result<Option<f64>, SequenceError> {
         let turned = |&index: &usize| (self.camera(index).forward[2].abs() * 1e6) as i64;
         let index = (0..self.frames()).min_by_key(turned).unwrap_or_default();
@@ -346,7 +348,7 @@ impl Sequence {
         Ok((world > camera_fit::RESIDUAL && best < world / 4.0).then_some(sign))
     }
 
-    /// The samples of a layer's channels, pixel by pixel, as the format has them.
+    /// Returns the samples of a layer's channels, pixel by pixel, in the format's convention.
     fn samples(&self, place: &Place, frame: &Frame, camera: &Camera) -> Vec<f32> {
         let channels: Vec<Vec<f32>> =
             place.channels.iter().map(|&c| frame.window.place(&frame.image.channels[c].1, self.window, 0.0)).collect();
@@ -406,7 +408,7 @@ impl Sequence {
                 format!("is {w}×{h} pixels, and {start} is {width}×{height}: all must be of one size"),
             ));
         }
-        // A frame in which nothing has changed needs no pairs.
+        // A frame without changes needs no pairs.
         let pairs = found.iter().copied().filter(|layer| layer.is_of_pairs() && !self.has(*layer));
         self.layers.extend(pairs.collect::<Vec<_>>());
         for layer in Layer::ALL.into_iter().filter(|layer| !layer.is_of_pairs()) {
@@ -423,7 +425,7 @@ impl Sequence {
     }
 }
 
-/// Channels pixel by pixel, upwards turned downwards.
+/// Interleaves channels pixel by pixel; flips a second component that points up.
 fn interleave(channels: &[Vec<f32>], meaning: Meaning) -> Vec<f32> {
     let count = channels.first().map_or(0, Vec::len);
     let mut samples = Vec::with_capacity(channels.len() * count);
@@ -437,7 +439,7 @@ fn interleave(channels: &[Vec<f32>], meaning: Meaning) -> Vec<f32> {
     samples
 }
 
-/// Distances along the rays become depths along the view axis.
+/// Converts distances along the rays to depths along the view axis.
 fn along_axis(distances: &mut [f32], camera: &Camera, raster: Raster) {
     for (i, value) in distances.iter_mut().enumerate() {
         let pixel = [i as u32 % raster.size[0], i as u32 / raster.size[0]];
@@ -445,7 +447,7 @@ fn along_axis(distances: &mut [f32], camera: &Camera, raster: Raster) {
     }
 }
 
-/// The names of channels that differ in their last part alone, as in `albedo.R,G,B`.
+/// Lists the names of channels; names that differ only in the last part become `albedo.R,G,B`.
 fn listed(names: &[&str]) -> String {
     let split = |name: &str| name.rsplit_once('.').map(|(front, last)| (front.to_owned(), last.to_owned()));
     let parts: Option<Vec<(String, String)>> = names.iter().map(|name| split(name)).collect();

@@ -1,10 +1,10 @@
-//! Whether motion leads where the surfaces were: which sign, axis or unit is wrong if it does not, and whether a frame follows the one before at all.
+//! Checks of motion: finds a wrong sign, axis or unit, and frames that do not follow the one before at all.
 
 use super::Pixels;
 use super::layers::Layer;
 use crate::sequence::camera::{Raster, dot};
 
-/// How the vectors of a file may differ from the format's, and what to say of it.
+/// Deviations of a file's vectors from the format's, and the words of the complaint.
 pub const READINGS: [(&str, [f32; 4]); 9] = [
     ("its y points up: say --map motion=NAME:up", [1.0, 0.0, 0.0, -1.0]),
     ("it leads to the next frame instead of the last: both signs are turned over", [-1.0, 0.0, 0.0, -1.0]),
@@ -23,12 +23,12 @@ pub const READINGS: [(&str, [f32; 4]); 9] = [
     ),
 ];
 
-/// How many pixels of two frames were compared, and how many showed the same surface.
+/// Numbers of compared pixels of two frames, and of those that show the same surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Matches {
     pub compared: usize,
     pub same: usize,
-    /// Pixels of the image that were looked at.
+    /// Number of pixels that were considered.
     pub of: usize,
 }
 
@@ -39,22 +39,22 @@ impl Matches {
         self.of += other.of;
     }
 
-    /// Whether enough of the image was compared to speak for it: a bird in the sky is no shot.
+    /// True if the compared part of the image is large enough to represent it: a bird in the sky is no shot.
     pub fn tells(self) -> bool {
         self.compared > 0 && 20 * self.compared >= self.of
     }
 
-    /// The part of surfaces that were not found, 0 if nothing could be looked at.
+    /// Returns the part of the compared surfaces that were not found, 0 if none were compared.
     pub fn lost(self) -> f64 {
         if self.compared == 0 { 0.0 } else { 1.0 - self.same as f64 / self.compared as f64 }
     }
 }
 
-/// About how many pixels are compared.
+/// Approximate number of pixels to compare.
 const PIXELS: usize = 20_000;
 
-/// Where motion leads, against the surfaces that were there, for pixels that move by a pixel or more by any reading; nothing, where nothing moves.
-/// The first is the format's own reading.
+/// Compares surfaces along the motion, for each reading, in pixels that move by a pixel or more by any reading;
+/// compares nothing if nothing moves. The first reading is the format's own.
 pub fn readings(now: &Pixels, before: &Pixels, motion: &[f32], raster: Raster) -> Vec<Matches> {
     let moved = |m: [f32; 2]| m[0].abs().max(m[1].abs());
     let own = [1.0, 0.0, 0.0, 1.0];
@@ -62,7 +62,7 @@ pub fn readings(now: &Pixels, before: &Pixels, motion: &[f32], raster: Raster) -
     matrices
         .map(|[a, b, c, d]| {
             let reading = |m: [f32; 2]| [a * m[0] + b * m[1], c * m[0] + d * m[1]];
-            // All readings are of the same pixels: those in which the one farthest apart leads somewhere else.
+            // All readings compare the same pixels: those in which the farthest reading leads somewhere else.
             matches(now, before, raster, true, |i| {
                 let m = [motion[2 * i], motion[2 * i + 1]];
                 let scaled = [m[0] * raster.size[0] as f32, m[1] * raster.size[1] as f32];
@@ -72,7 +72,7 @@ pub fn readings(now: &Pixels, before: &Pixels, motion: &[f32], raster: Raster) -
         .collect()
 }
 
-/// A reading's matrix, with the units of the picture put in.
+/// Puts the picture's units into a reading's matrix.
 fn in_pixels(matrix: [f32; 4], raster: Raster) -> [f32; 4] {
     let [width, height] = raster.picture.map(|side| side as f32);
     let unit = |x: f32, side: f32| match x {
@@ -83,8 +83,8 @@ fn in_pixels(matrix: [f32; 4], raster: Raster) -> [f32; 4] {
     [unit(matrix[0], width), matrix[1], matrix[2], unit(matrix[3], height)]
 }
 
-/// Compares surfaces of two frames along a motion, for pixels that have one. By their albedo too, if that is asked for: textures tell small errors of
-/// motion, but fine ones are another in each frame.
+/// Compares surfaces of two frames along a motion, for pixels that have one. On request, compares their albedo too:
+/// textures reveal small errors of motion, but fine ones differ in each frame.
 pub fn matches(
     now: &Pixels,
     before: &Pixels,
@@ -109,13 +109,13 @@ pub fn matches(
             continue;
         }
         let j = place[1] as usize * width as usize + place[0] as usize;
-        // Half a pixel off is another depth on what is slanted.
+        // On slanted surfaces, half a pixel makes another depth.
         let near = (depth_before[j] / depth[i] - 1.0).abs() < 0.1;
         let turned = dot(three(normal, i), three(normal_before, j))
             >= 0.9 * length(three(normal, i)) * length(three(normal_before, j));
         let object = ids.is_none_or(|(now, before)| now[i].to_bits() == before[j].to_bits());
         let albedo = albedos.is_none_or(|(now, before)| {
-            // What is no albedo tells nothing.
+            // Ignores values that are no albedo.
             let is_one = |a: &[f32]| a.iter().all(|x| (0.0..=1.0).contains(x)) && a.iter().any(|x| *x > 0.0);
             let (now, before) = (&now[3 * i..3 * i + 3], &before[3 * j..3 * j + 3]);
             !is_one(now) || !is_one(before) || now.iter().zip(before).all(|(a, b)| (a - b).abs() <= 0.1)
@@ -130,16 +130,17 @@ fn length(v: [f64; 3]) -> f64 {
     dot(v, v).sqrt()
 }
 
-/// Part of the surfaces that may be lost along the motion of a sequence before it is told.
+/// Part of the surfaces that may be lost along the motion of a sequence without a complaint.
 const LOST: f64 = 0.15;
 
-/// Part that is told even if no other reading fits: less may be noise of the guides.
+/// Part from which on a complaint follows even if no other reading fits: smaller parts may be noise of the guides.
 const LOST_ANYWAY: f64 = 0.5;
 
-/// By which part another reading has to lose less to be named.
+/// Part of its own loss below which another reading's loss must be to be named.
 const BETTER: f64 = 0.4;
 
-/// What is wrong with the motion of a sequence, by the matches of all readings, summed over its frames; `None` if nothing is.
+/// Words the complaint about the motion of a sequence, given the matches of all readings, summed over its frames;
+/// `None` if the motion is right.
 pub fn complaint(readings: &[Matches]) -> Option<String> {
     let own = readings.first()?;
     if own.compared < 200 || own.lost() < LOST {

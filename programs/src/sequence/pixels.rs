@@ -1,31 +1,33 @@
-//! Whether a pixel stands for a point or for its whole area.
+//! Decision between pixels as points and pixels as areas.
 //!
-//! Images of many samples are smooth at edges, and frames of one sample are jagged. Where they shall become such an image, edges are to be smoothed; where pixels are
-//! points, as those of a G-buffer that was rasterized, that would only blur them. Nothing but the frames tells which it is.
+//! Images of many samples are smooth at edges, and frames of one sample are jagged. If such frames are to become such
+//! an image, the edges must be smoothed. If pixels are points, as those of a rasterized G-buffer are, smoothing would
+//! only blur them. Only the frames themselves show the difference.
 
 use super::Pixels;
 use super::layers::Layer;
 use asvgf::image_io::{Attribute, ExrFile};
 
-/// Why pixels are taken for areas.
+/// Evidence that pixels are areas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Area {
-    /// Depths are those of points all over the pixels.
+    /// Depths belong to points all over the pixels.
     Scattered,
-    /// Blender wrote the file: its images are filtered, and its depths at one sample are those of the pixels' middles.
+    /// Blender wrote the file: its images are filtered, and its depths at one sample belong to the pixels' middles.
     Blender,
 }
 
-/// How far, in pixels, points lie apart from a regular grid, from which on they are scattered. In half a pixel around the middle, 0.7; in a grid, rounding.
+/// Distance of points from a regular grid, in pixels, from which on they are scattered. Points in half a pixel around
+/// the middle have 0.7; points on a grid have rounding only.
 const SCATTERED: f64 = 0.05;
 
-/// Fewest triples of pixels that tell.
+/// Fewest triples of pixels for a decision.
 const ENOUGH: usize = 50;
 
-/// Least difference of two depths, in parts of them, that tells where points are.
+/// Least difference of two depths, in parts of them, that reveals the points' places.
 const SLANTED: f64 = 1e-3;
 
-/// What the first frame tells.
+/// Returns the evidence in the first frame.
 pub fn area(of_blender: bool, pixels: &Pixels, size: [u32; 2]) -> Option<Area> {
     if scattered(pixels, size) >= SCATTERED {
         return Some(Area::Scattered);
@@ -33,12 +35,13 @@ pub fn area(of_blender: bool, pixels: &Pixels, size: [u32; 2]) -> Option<Area> {
     of_blender.then_some(Area::Blender)
 }
 
-/// Whether Blender wrote a file.
+/// True if Blender wrote a file.
 pub fn is_of_blender(file: &ExrFile) -> bool {
     matches!(file.attribute("BlenderMultiChannel"), Some(Attribute::Text(_)))
 }
 
-/// The median over three pixels in a row of one plane: how much the second difference of 1/z, which is 0 on a grid, is in parts of the first.
+/// Returns the median of a ratio over three pixels in a row of one plane: the second difference of 1/z, which is 0 on a
+/// grid, over the first difference.
 fn scattered(pixels: &Pixels, [width, height]: [u32; 2]) -> f64 {
     let (Some(depth), Some(normal)) = (pixels.get(Layer::Depth), pixels.get(Layer::Normal)) else { return 0.0 };
     let (width, height) = (width as usize, height as usize);

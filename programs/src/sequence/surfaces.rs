@@ -1,10 +1,11 @@
-//! Which pixels show one surface.
+//! Pixels that show one surface.
 
 use super::Pixels;
 use super::layers::Layer;
 use crate::sequence::camera::dot;
 
-/// Whether pixels of two frames, or of one, may show one surface: one object, depths within a tenth, directions within 37°.
+/// True if pixels of two frames, or of one, may show one surface: one object, depths within a tenth, directions within
+/// 37°.
 pub fn is_same(pixels: &Pixels, i: usize, other: &Pixels, j: usize) -> bool {
     let normals = [three(pixels, Layer::Normal, i), three(other, Layer::Normal, j)].map(|n| n.map(f64::from));
     one(pixels, Layer::Id, i).to_bits() == one(other, Layer::Id, j).to_bits()
@@ -12,7 +13,8 @@ pub fn is_same(pixels: &Pixels, i: usize, other: &Pixels, j: usize) -> bool {
         && dot(normals[0], normals[1]) > 0.8
 }
 
-/// Of each pixel, the first pixel of the surface that it is part of: neighbours in a row or a column that show the same are connected.
+/// Returns for each pixel the first pixel of its surface: neighbours in a row or a column that show the same surface
+/// are connected.
 pub fn surfaces(pixels: &Pixels, [width, height]: [u32; 2]) -> Vec<usize> {
     fn root(parents: &mut [usize], mut i: usize) -> usize {
         while parents[i] != i {
@@ -33,12 +35,12 @@ pub fn surfaces(pixels: &Pixels, [width, height]: [u32; 2]) -> Vec<usize> {
     (0..count).map(|i| root(&mut parents, i)).collect()
 }
 
-/// A layer's number in a pixel, 0 if there is none.
+/// Returns a layer's number in a pixel, 0 if there is none.
 pub fn one(pixels: &Pixels, layer: Layer, i: usize) -> f32 {
     pixels.get(layer).and_then(|samples| samples.get(i).copied()).unwrap_or_default()
 }
 
-/// A layer's three numbers in a pixel.
+/// Returns a layer's three numbers in a pixel.
 pub fn three(pixels: &Pixels, layer: Layer, i: usize) -> [f32; 3] {
     let samples = pixels.get(layer).unwrap_or_default();
     std::array::from_fn(|c| samples.get(3 * i + c).copied().unwrap_or_default())
