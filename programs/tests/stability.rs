@@ -1,5 +1,5 @@
-//! Whether the filter stays finite, unbiased and bounded wherever a user may take it: cases as rows of data, each with a bound
-//! that comes from theory or from a reference. The program `stability` prints the same rows, and the long ones.
+//! The filter stays finite, unbiased and bounded for any use: cases as rows of data, each with a bound from theory or
+//! from a reference. The program `stability` prints the same rows, and the long ones.
 
 use asvgf_programs::stability::cases::{self, Case};
 

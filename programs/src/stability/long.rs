@@ -1,4 +1,4 @@
-//! Runs that take minutes: the program's alone, not the test's.
+//! Runs that take minutes: only the program has them, not the test.
 
 use crate::stability::cases::furnace::{self, Furnace, ROUNDING};
 use crate::stability::cases::painted::{Path, grey};
@@ -51,7 +51,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Images of the cycle; a prime, so that it does not beat with the nine places of a stratum.
+/// Images of the cycle: a prime, so that it does not beat with the nine places of a stratum.
 const CYCLE: u32 = 97;
 
 fn one_wall() -> Worst {
@@ -92,7 +92,7 @@ fn one_wall() -> Worst {
     worst
 }
 
-/// A stage of the box of Cornell, and the same as a reference.
+/// Returns a stage of the Cornell box, and the same stage as a reference.
 fn cornell(size: [u32; 2], samples: u32) -> [Stage; 2] {
     let tracer = TracerSettings { samples, seed: 7, ..Default::default() };
     let reference = Settings { mode: Mode::Reference, tracer, ..Settings::adaptive() };

@@ -1,8 +1,8 @@
-//! The program `stability`: measures what the filter bears, prints a table and writes docs/stability.md. The test of the same name asserts the same
-//! bounds.
+//! The program `stability`: measures the filter's distance from its bounds, prints a table and writes
+//! docs/stability.md. The test of the same name asserts the same bounds.
 
 pub mod cases;
-// The library's own tests stay in its package, and so does what they share with these.
+// The library's own tests stay in its package, with the helpers that they share with these.
 #[path = "../../../tests/gpu/common/mod.rs"]
 pub mod common;
 mod long;
@@ -13,7 +13,7 @@ use crate::program::say;
 use std::error::Error;
 use std::ffi::OsString;
 
-/// The groups, in the order of the table.
+/// Groups, in the order of the table.
 const GROUPS: [(&str, &[cases::Case]); 10] = [
     ("Range of radiance", cases::radiance::CASES),
     ("Missing, infinite and repeated samples", cases::samples::CASES),
@@ -40,7 +40,7 @@ group's title, only that group is measured, and no file is written.
   -h, --help            print this
 ";
 
-/// Does what the arguments after the program's name say.
+/// Runs the program with the arguments after its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = arguments.into_iter().map(|a| a.to_string_lossy().into_owned()).collect();
     let (options, names): (Vec<&str>, Vec<&str>) =

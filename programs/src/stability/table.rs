@@ -1,13 +1,13 @@
-//! The rows of the cases, as Markdown.
+//! Rows of the cases, as Markdown.
 
 use crate::program::repository;
 use crate::stability::cases::{Breaks, Case};
 use std::fmt::Write as _;
 
-/// Where the table goes.
+/// File of the table.
 const FILE: &str = "docs/stability.md";
 
-/// What stands between these two in the file is the table's.
+/// Marks in the file, around the table.
 const MARKS: [&str; 2] = ["<!-- table -->\n", "<!-- end of table -->"];
 
 #[derive(Default)]
@@ -15,12 +15,12 @@ pub struct Table {
     text: String,
     cases: usize,
     inputs: u32,
-    /// Bounds that do not hold.
+    /// Number of broken bounds.
     pub broken: usize,
 }
 
 impl Table {
-    /// Measures the cases of a group and prints each row as it is known.
+    /// Measures the cases of a group and prints each row as soon as it is known.
     pub fn group(&mut self, title: &str, cases: &[Case]) {
         let head = format!(
             "\n### {title}\n\n| case | varied over | measured | | bound, and why | margin | breaking point |\n|---|---|---|---|---|---|---|\n"
@@ -74,12 +74,12 @@ impl Table {
     }
 }
 
-/// Three digits.
+/// Formats a number with three digits.
 fn number(x: f64) -> String {
     if x == 0.0 || (0.01..1e4).contains(&x.abs()) { format!("{x:.3}") } else { format!("{x:.1e}") }
 }
 
-/// How many times the measurement could grow.
+/// Returns the factor by which the measurement could grow.
 fn margin(value: f64, bound: f64) -> String {
     match () {
         () if value > bound => "**broken**".into(),

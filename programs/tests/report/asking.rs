@@ -61,7 +61,7 @@ fn the_full_suite_has_three_scenes() {
     let command = command("--suite full").unwrap();
     let of = |scene: &str| command.suite.sequences.iter().filter(|s| s.name.starts_with(scene)).count();
     assert_eq!(["cornell-", "pillars-", "textured-"].map(of), [6, 6, 2]);
-    // Animations are looked for in the file, which is there.
+    // The file exists, so the parser looks the animations up in it.
     let textured = command.suite.sequences.iter().filter(|s| s.name.starts_with("textured-"));
     for sequence in textured {
         let script = Script::load(&command.suite, sequence).unwrap();

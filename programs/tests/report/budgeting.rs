@@ -1,11 +1,11 @@
-//! What is dropped to keep within a budget.
+//! Parts that are dropped to keep within a budget.
 
 use asvgf_programs::report::budget::{Load, Pace, shortfall, size};
 
 const FULL: [u32; 2] = [640, 360];
 const PACE: Pace = Pace { run: 2.0, filtered: 0.5, path: 0.25, scored: 0.125 };
 
-/// 50 + 25 + 25 seconds at full size, and 20 at any.
+/// A load of 50 + 25 + 25 seconds at full size, and of 20 at any.
 const LOAD: Load = Load { runs: 10, filtered: 100, paths: 100, scored: 200 };
 
 #[test]
@@ -15,7 +15,7 @@ fn a_load_takes_what_its_parts_take() {
     assert_eq!(PACE.seconds(&Load::default(), 1.0), 0.0);
 }
 
-/// A quarter is kept in hand: 150 seconds for 120, 56.25 for 45.
+/// The margin is a quarter: 150 seconds for 120, 56.25 for 45.
 #[test]
 fn the_size_is_halved_until_all_of_it_fits() {
     let fitting = |seconds| size(FULL, seconds, &PACE, |_| LOAD);
@@ -23,12 +23,12 @@ fn the_size_is_halved_until_all_of_it_fits() {
     assert_eq!(fitting(149.0), [320, 180]);
     assert_eq!(fitting(57.0), [320, 180]);
     assert_eq!(fitting(56.0), [160, 90]);
-    // Smaller than this nothing would be seen: methods have to go instead.
+    // A smaller image would show nothing, so methods have to go instead.
     assert_eq!(fitting(0.0), [80, 45]);
     assert_eq!(size([32, 18], 0.0, &PACE, |_| LOAD), [32, 18]);
 }
 
-/// References of another size are others, which may have to be traced.
+/// References of another size are other files, which may have to be traced.
 #[test]
 fn what_is_kept_takes_no_time() {
     let load = |size| if size == FULL { Load { paths: 0, ..LOAD } } else { LOAD };

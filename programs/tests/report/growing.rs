@@ -1,4 +1,4 @@
-//! How cost grows.
+//! Growth of costs.
 
 use asvgf::scene::{Mesh, Scene, builtin};
 use asvgf_programs::report::fit::{Power, line};
@@ -9,7 +9,7 @@ use asvgf_programs::report::{plots, words_growth};
 #[test]
 fn a_line_is_found_again() {
     let points = [0.0, 1.0, 4.0].map(|x| (x, 3.0 * x - 2.0));
-    // Then errors that cancel: ±1 at the same places.
+    // The second case has errors that cancel: ±1 at the same places.
     for (points, expected) in
         [(&points[..], [3.0, -2.0]), (&[(0.0, 1.0), (0.0, -1.0), (1.0, 6.0), (1.0, 4.0)], [5.0, 0.0])]
     {
@@ -28,13 +28,13 @@ fn a_power_is_found_again() {
         assert!((power.exponent - exponent).abs() < 1e-12, "{}, not {exponent}", power.exponent);
         assert!((power.factor - 7.0).abs() < 1e-10 && (power.at(9.0) - 7.0 * 9f64.powf(exponent)).abs() < 1e-8);
     }
-    // Errors of the same part in both directions cancel.
+    // Equal relative errors in both directions cancel.
     let power = Power::through(&[(1.0, 2.0), (1.0, 0.5), (4.0, 8.0), (4.0, 2.0)]).unwrap();
     assert!((power.exponent - 1.0).abs() < 1e-12 && (power.factor - 1.0).abs() < 1e-12);
     assert!(Power::through(&[(1.0, 1.0)]).is_none());
 }
 
-/// Twice the area, and its first moments: a surface and where it is.
+/// Returns twice the area, and its first moments: a surface and its place.
 fn moments(mesh: &Mesh) -> [f64; 4] {
     let mut sums = [0.0; 4];
     for triangle in &mesh.triangles {
@@ -63,7 +63,7 @@ fn what_is_cut_is_the_same_surface() {
             for (before, after) in moments(old).into_iter().zip(moments(new)) {
                 assert!((before - after).abs() < 1e-5 * moments(old)[0], "{}: {before} and {after}", old.name);
             }
-            // All are of one size.
+            // All triangles have one size.
             let normal =
                 |mesh: &Mesh, i: usize| moments(&Mesh { triangles: vec![mesh.triangles[i]], ..mesh.clone() })[0];
             let part = normal(old, 0) / f64::from(factor);
@@ -72,8 +72,8 @@ fn what_is_cut_is_the_same_surface() {
     }
 }
 
-/// A filter that takes a microsecond per pixel, and tracing that takes ten times as long for a hundred times the
-/// triangles.
+/// Returns costs of a filter with a microsecond per pixel, and of tracing that takes ten times as long for a hundred
+/// times the triangles.
 fn measured() -> Growth {
     let cost = |width: u32, triangles: usize| {
         let pixels = f64::from(width * 100);

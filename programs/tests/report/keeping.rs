@@ -1,4 +1,4 @@
-//! What is kept between reports, and under which name.
+//! Results kept between reports, and their names.
 
 use asvgf_programs::report::hash::Hash;
 use asvgf_programs::report::record::{Row, Run};

@@ -11,7 +11,7 @@ fn every_method_has_a_name_of_its_own_and_sound_settings() {
     assert_eq!(names.len(), methods.len());
     for method in &methods {
         method.settings.check().unwrap();
-        // Names are names of files too.
+        // Names become names of files.
         assert!(method.name.chars().all(|c| c.is_ascii_alphanumeric() || " .-".contains(c)), "{}", method.name);
     }
     assert_eq!(methods[0].settings, Settings::adaptive());

@@ -1,4 +1,4 @@
-//! The program `report`: what it is asked, what it measures, what it concludes and what it writes.
+//! The program `report`: its command line, its measurements, its conclusions and its files.
 
 mod asking;
 mod budgeting;

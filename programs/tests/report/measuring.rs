@@ -11,7 +11,7 @@ use asvgf_programs::report::summary::Summary;
 use asvgf_programs::report::truth::{Truth, move_to};
 use asvgf_programs::tracing::Reference;
 
-/// The lamp goes out half way.
+/// Returns a suite in which the lamp goes out half way.
 fn suite() -> Suite {
     let mut suite = Suite { size: [32, 18], frames: 6, paths: 64, repeats: 1, ..Suite::quick() };
     suite.sequences.retain(|sequence| sequence.name == "cornell-blink");
@@ -30,7 +30,7 @@ fn a_sequence_is_measured() {
     let find = || Truth::find(&gpu, &suite, &suite.sequences[0], None, |_| {}).unwrap();
     let mut truth = find();
 
-    // Still but for the light: what is relit has no steady origin, and all else is its own.
+    // Everything is still but the light: relit pixels have no steady origin, and all other pixels are their own origin.
     let turn = &truth.moments[3];
     assert_eq!(turn.index, TURN);
     let relit = turn.ages.iter().filter(|&&age| age == 0).count();
@@ -40,7 +40,7 @@ fn a_sequence_is_measured() {
     }
     assert!(truth.moments[5].ages.iter().all(|&age| age == 2 || age == u32::MAX));
 
-    // The same numbers again, from references that were kept and a denoiser of its own.
+    // A second run yields the same numbers, from kept references and another denoiser.
     let first = run(&gpu, &mut truth, DEFAULT);
     let again = run(&gpu, &mut find(), DEFAULT);
     assert_eq!(first.images, again.images);
@@ -56,7 +56,7 @@ fn a_sequence_is_measured() {
     // Three of six frames warm up.
     assert_eq!(first.run.times.len(), 3);
 
-    // What is made worse on purpose is shown worse, and a constant α ghosts.
+    // The control must be worse, and a constant α must ghost.
     let summary = |output: &Output, name: &str| {
         let method = all().into_iter().find(|method| method.name == name).unwrap();
         Summary::of(&output.run, name, method.group)
@@ -68,7 +68,8 @@ fn a_sequence_is_measured() {
     assert!(slow.mean(|row| row.ghost) > adaptive.mean(|row| row.ghost).map(|ghost| 10.0 * ghost));
 }
 
-/// Variance of references of so many paths, twice their number of pixels, of a scene that has just moved or long stood there.
+/// Returns the sum of the squared differences of two references with this many paths: their variance times twice the
+/// number of their values. The scene has just moved, or has stood still.
 fn noise(gpu: &Gpu, paths: u32, moves: bool) -> f64 {
     let scene = builtin::scene("cornell", "all").unwrap();
     let mut uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();

@@ -1,4 +1,4 @@
-//! Errors are those from the truth, not from a noisy reference.
+//! Errors are measured from the truth, not from a noisy reference.
 
 use asvgf::Camera;
 use asvgf::scene::builtin;
@@ -8,7 +8,7 @@ use asvgf_programs::report::truth::{Moment, Rgb};
 
 const SIZE: [u32; 2] = [96, 96];
 
-/// Uniform in −½…½, with a variance of 1/12 (xorshift32, Marsaglia 2003).
+/// Returns a uniform number in −½…½, with a variance of 1/12 (xorshift32, Marsaglia 2003).
 fn noise(state: &mut u32) -> f32 {
     *state ^= *state << 13;
     *state ^= *state >> 17;
@@ -16,7 +16,7 @@ fn noise(state: &mut u32) -> f32 {
     (f64::from(*state) / 4294967296.0 - 0.5) as f32
 }
 
-/// The truth is 1 everywhere, the image 1.1, and each half of the reference has noise of a variance of 0.0075.
+/// The truth is 1 everywhere, the image is 1.1, and each half of the reference has noise of a variance of 0.0075.
 #[test]
 fn the_noise_of_references_is_not_counted() {
     let mut state = 1;
@@ -39,7 +39,7 @@ fn the_noise_of_references_is_not_counted() {
     // Three standard errors of 27 648 samples are 0.0002: of the noise's 0.004, and of its product with the difference.
     let rmse = rows[0].rmse.unwrap();
     assert!((rmse * rmse - 0.01).abs() < 0.0003, "{rmse}");
-    // Of a noise v in the divisor too, (0.1 − n)²/(1 + n)² makes 0.43·v more to second order.
+    // With a noise v in the divisor too, (0.1 − n)²/(1 + n)² adds 0.43·v to second order.
     let relative = rows[0].rel_mse.unwrap();
     assert!((relative - 0.01 / 1.01).abs() < 0.0021, "{relative}");
 }

@@ -1,11 +1,11 @@
-//! Words from numbers.
+//! Conclusions from numbers.
 
 use asvgf_programs::report::methods::{CONTROL, DEFAULT, Group, ONE_PATH};
 use asvgf_programs::report::record::{Row, Run};
 use asvgf_programs::report::summary::{Summary, spread};
 use asvgf_programs::report::verdict::{claims, equal_error, equal_time, pareto};
 
-/// A method that takes `ms` for every frame and has one error in all.
+/// Returns a method that takes `ms` for every frame and has the same error in all.
 fn method(name: &str, group: Group, ms: f64, error: f64) -> Summary {
     let row = Row { rel_mse: Some(error), ghost: Some(error), flicker: Some(1.0 / error), ..Row::default() };
     let times =
@@ -73,7 +73,7 @@ fn claims_are_held_against_the_numbers() {
     };
     assert_eq!(held("cornell-blink", &measured()), [true, true, true]);
     assert_eq!(held("cornell-static", &measured()), [true, true, true, true]);
-    // 0.02 is within 1.05 × 0.025, but not half of it.
+    // 0.02 is within 1.05 × 0.025, but above half of it.
     let mut worse = measured();
     worse[3] = method(DEFAULT, Group::Adaptive, 2.0, 0.02);
     worse[6] = method(CONTROL, Group::Control, 2.0, 0.01);

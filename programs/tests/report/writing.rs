@@ -1,4 +1,4 @@
-//! Files that come out.
+//! Output files.
 
 use asvgf::image_io::read_png;
 use asvgf_programs::report::methods::{DEFAULT, Group, ONE_PATH};
@@ -8,7 +8,7 @@ use asvgf_programs::report::words::{Chapter, Context, report};
 use asvgf_programs::report::{crops, plots, tables};
 use std::path::PathBuf;
 
-/// A folder that goes away with its test.
+/// A folder that is removed at the end of its test.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -93,7 +93,7 @@ fn plots_are_drawn_and_labelled() {
         assert_eq!((width, height), (960, 600));
         assert!(pixels.iter().filter(|pixel| pixel[0] < 128).count() > 1000, "{name} is empty");
     }
-    // Nothing measured, nothing drawn, and no failure.
+    // Without measurements, nothing is drawn, and nothing fails.
     plots::draw(&folder.0, "none", &[]).unwrap();
 }
 
@@ -104,7 +104,7 @@ fn pictures_stand_side_by_side() {
     let tile = |name: &str, level| (name.to_owned(), vec![[level; 3]; 12 * 8]);
     crops::write(&path, [12, 8], &[tile("one", 0.9), tile("reference", 0.2)]).unwrap();
     let (width, height, pixels) = read_png(&path).unwrap();
-    // Magnified 24 times, with 4 pixels between and 12 above.
+    // The pictures are magnified 24 times, with 4 pixels between and 12 above.
     let rows = if cfg!(feature = "flip") { 2 } else { 1 };
     assert_eq!((width, height), (2 * 288 + 4, rows * (12 + 192) + 4 * (rows - 1)));
     let at = |x: u32, y: u32| pixels[(y * width + x) as usize];

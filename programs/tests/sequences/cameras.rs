@@ -1,4 +1,4 @@
-//! Cameras of sequences: written, read, and derived from what they saw.
+//! Cameras of sequences: written, read, and derived from their images.
 
 use crate::folder::Folder;
 use asvgf_programs::sequence::Eye;
@@ -9,7 +9,7 @@ use serde_json::json;
 
 const SIZE: [u32; 2] = [96, 54];
 
-/// Turned about all axes; its image is mirrored if `side` is −1.
+/// Returns a camera turned about all axes; its image is mirrored if `side` is −1.
 fn turned(side: f64, lens: Lens) -> Camera {
     let ([sin_a, cos_a], [sin_b, cos_b]) = ([0.6, 0.8], [0.28, 0.96]);
     let right = [cos_a, 0.0, -sin_a].map(|x| side * x);
@@ -18,7 +18,7 @@ fn turned(side: f64, lens: Lens) -> Camera {
     Camera { eye: [0.2, -0.1, 0.3], ..Camera::looking([right, up, forward], lens) }
 }
 
-/// Where a ray leaves the box −1…1 around the origin, and the wall's normal there.
+/// Returns the depth at which a ray leaves the box −1…1 around the origin, and the wall's normal there.
 fn wall_of(camera: &Camera, pixel: [u32; 2], raster: Raster) -> (f64, [f32; 3]) {
     let near = camera.position(pixel, 0.0, raster);
     let far = camera.position(pixel, 1.0, raster);
@@ -28,7 +28,7 @@ fn wall_of(camera: &Camera, pixel: [u32; 2], raster: Raster) -> (f64, [f32; 3]) 
     (distance(axis), std::array::from_fn(|k| if k == axis { -ray[axis].signum() as f32 } else { 0.0 }))
 }
 
-/// Normals and depths in that box, or distances along the rays.
+/// Returns normals and depths in that box, or distances along the rays.
 fn look(camera: &Camera, raster: Raster, along_ray: bool) -> (Vec<f32>, Vec<f32>) {
     let (mut normals, mut depths) = (Vec::new(), Vec::new());
     for i in 0..raster.size[0] * raster.size[1] {
@@ -74,7 +74,7 @@ fn a_point_at_rest_moves_against_the_camera() {
     assert!((x - expected).abs() < 1e-9 && y.abs() < 1e-9, "{x}, {y}, not {expected}, 0");
     let behind = Camera { eye: [0.0, 0.0, -5.0], ..now };
     assert!(now.motion_to(&behind, [48, 27], 2.0, raster)[0].is_nan(), "it was behind");
-    // In an orthographic view, as far at any depth.
+    // In an orthographic view, the motion is the same at any depth.
     let flat = Camera { lens: Lens::Orthographic(2.0), ..now };
     let left = Camera { eye: [-1.0, 0.0, 0.0], ..flat };
     for depth in [0.5, 20.0] {
@@ -82,7 +82,7 @@ fn a_point_at_rest_moves_against_the_camera() {
     }
 }
 
-/// A crop sees what the same pixels of the whole picture see, off-centre and with pixels that are not square.
+/// A crop sees the same as the whole picture's pixels, off-centre and with pixels that are not square.
 #[test]
 fn a_crop_sees_what_the_picture_sees() {
     for lens in [Lens::Perspective(0.7), Lens::Orthographic(0.7)] {
@@ -105,7 +105,7 @@ fn a_camera_is_derived_from_planes() {
         assert_found(&camera, fit(&normals, &depths, whole, false, None));
         let (normals, distances) = look(&camera, whole, true);
         assert_found(&camera, fit(&normals, &distances, whole, true, None));
-        // Outside of the middle of its picture.
+        // The crop is off the middle of its picture.
         let crop = Raster { size: [70, 50], offset: [20, 3], ..whole };
         let (normals, depths) = look(&camera, crop, false);
         assert_found(&camera, fit(&normals, &depths, crop, false, None));
@@ -115,7 +115,7 @@ fn a_camera_is_derived_from_planes() {
     assert_found(&parallel, fit(&normals, &depths, whole, false, None));
 }
 
-/// A room along the axes of the view is one for every field of view.
+/// A room along the axes of the view fits every field of view.
 #[test]
 fn a_field_of_view_that_nothing_tells_is_not_told() {
     let raster = Raster::whole(SIZE);
@@ -142,12 +142,13 @@ fn nothing_is_derived_from_noise() {
 
 type Matrix = [[f64; 4]; 4];
 
-/// Row vectors from the left, as files have it.
+/// Multiplies matrices for row vectors, as files have them.
 fn times(a: &Matrix, b: &Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-/// A camera as programs write it: looking along +Z or −Z of its own space, with a picture of −1…1 or of 0…1, y up or down in it.
+/// A camera in the conventions of programs: looking along +Z or −Z of its own space, with a picture of −1…1 or of 0…1,
+/// y up or down in it.
 #[test]
 fn attributes_describe_cameras() {
     let raster = Raster::whole(SIZE);
@@ -172,7 +173,7 @@ fn attributes_describe_cameras() {
         let last = if camera.is_orthographic() { 3 } else { 2 };
         let w = if camera.is_orthographic() { 1.0 } else { sign };
         (to_picture[last][0], to_picture[last][1], to_picture[last][3]) = (-shift[0] * w, -shift[1] * w, w);
-        // And from −1…1 to what the program has.
+        // Converts from −1…1 to the program's range.
         let (scale, offset) = if unit { (0.5, 0.5) } else { (1.0, 0.0) };
         let flip = if down { -1.0 } else { 1.0 };
         let to_program =
@@ -204,7 +205,7 @@ fn attributes_describe_cameras() {
     }
 }
 
-/// Cameras in the world with normals of the world, or of their own space: what is read is the same.
+/// Cameras in the world, with normals of the world or of their own space: both read the same.
 #[test]
 fn the_space_of_normals_is_found() {
     let raster = Raster::whole(SIZE);

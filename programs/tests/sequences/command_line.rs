@@ -1,4 +1,4 @@
-//! What can be asked of `denoise`.
+//! Options of `denoise`.
 
 use asvgf::image_io::{Compression, SampleType};
 use asvgf::{FilterSettings, View};
@@ -31,7 +31,7 @@ fn everything_that_can_be_said_is_heard() {
                 --layer Main --type half --compression piz --causal --edges sharp --keep-channels --same-names";
     let options = options(line).unwrap();
     assert_eq!(options.constant, Some(0.1));
-    // Whatever the order.
+    // The order of the options does not matter.
     assert_eq!(options.preset, FilterSettings { iterations: 3, ..FilterSettings::classic() });
     assert_eq!(options.outputs.iter().map(|o| o.0).collect::<Vec<_>>(), ["denoised", "lambda", "history"]);
     assert_eq!(options.formats, [Format::Exr, Format::Png]);

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A folder of its own for a test, which is removed at its end.
+/// A folder of a test's own, which is removed at its end.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
@@ -22,7 +22,7 @@ impl Folder {
         Self(path)
     }
 
-    /// Three frames of a grey wall one unit away.
+    /// Writes three frames of a grey wall one unit away.
     pub fn with_frames() -> Self {
         let folder = Self::new();
         for frame in 0..3 {
@@ -61,7 +61,7 @@ impl Sink for Frames<'_> {
     }
 }
 
-/// The least that a frame must have: colour ½, a normal along +Z, depth 1.
+/// Returns the least data of a frame: colour ½, a normal along +Z, depth 1.
 pub fn wall([width, height]: [u32; 2]) -> Channels {
     let mut image = Channels { width, height, channels: Vec::new() };
     add(&mut image, Layer::Color, &[0.5; 3]);
@@ -77,13 +77,13 @@ pub fn add(image: &mut Channels, layer: Layer, value: &[f32]) {
     image.channels.extend(channels);
 }
 
-/// Gives a channel another name.
+/// Renames a channel.
 pub fn rename(image: &mut Channels, from: &str, to: &str) {
     let channel = image.channels.iter_mut().find(|(name, _)| name == from).unwrap();
     channel.0 = to.into();
 }
 
-/// A number for each pixel and seed, 0…1.
+/// Returns a number for each pixel and seed, 0…1.
 pub fn random(pixel: u32, seed: u32) -> f32 {
     let mut x = pixel.wrapping_mul(0x9e37_79b9) ^ seed.wrapping_mul(0x85eb_ca6b);
     for _ in 0..3 {

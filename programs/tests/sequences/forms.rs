@@ -1,4 +1,4 @@
-//! The same frames in other forms: what must not matter does not, to the last bit.
+//! The same frames in other forms: irrelevant differences change nothing, to the last bit.
 
 use crate::folder::Folder;
 use asvgf::image_io::{Channels, Compression, ExrFile, SampleType, Window, write_exr};
@@ -14,7 +14,7 @@ use std::path::Path;
 
 const SIZE: [u32; 2] = [9, 7];
 
-/// A channel of the format, its samples in a frame.
+/// Returns the sample of a channel of the format in a frame.
 fn sample(channel: usize, frame: u32, i: usize) -> f32 {
     let noise = ((i as u32 * 7 + frame * 31 + channel as u32 * 13) % 29) as f32 / 29.0;
     match channel {
@@ -49,7 +49,7 @@ fn plain_folder() -> Folder {
     folder
 }
 
-/// Every layer's samples in every frame, cut out of the window of the frame's own file.
+/// Reads every layer's samples in every frame, cut out of the window of the frame's own file.
 fn read(sequence: &Sequence) -> Vec<Vec<Option<Vec<f32>>>> {
     let cut = |index: usize| {
         let window = sequence.file(index).unwrap().data_window();
@@ -65,7 +65,7 @@ fn read(sequence: &Sequence) -> Vec<Vec<Option<Vec<f32>>>> {
     (0..sequence.frames()).map(cut).collect()
 }
 
-/// Names that renderers give to the layers, as prefixes of the components; motion turned over or not.
+/// Names that renderers give to the layers, as prefixes of the components, with or without inverted motion.
 #[derive(Clone, Copy, Debug)]
 enum Naming {
     Own,
@@ -95,7 +95,7 @@ fn name(naming: Naming, channel: usize) -> String {
     }
 }
 
-/// Whether its motion points up.
+/// True if this naming's motion points up.
 fn upwards(naming: Naming, channel: usize) -> bool {
     channel == 11 && matches!(naming, Naming::Blender(_) | Naming::BlenderWithNoisyImage)
 }
@@ -103,7 +103,7 @@ fn upwards(naming: Naming, channel: usize) -> bool {
 #[derive(Clone, Debug)]
 struct Form {
     naming: Naming,
-    /// One part for each layer, in an order by this number; else one part.
+    /// One part for each layer, in the order of this number; else one part.
     parts: Option<usize>,
     window: [i32; 2],
     compression: exr::prelude::Compression,
@@ -184,7 +184,7 @@ fn write(path: &Path, form: &Form, frame: u32) {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Names, parts, their order, windows, compressions, tiles, and other view layers beside.
+    /// Varies names, parts, their order, windows, compressions, tiles, and other view layers beside.
     #[test]
     fn the_form_of_files_does_not_matter(form in forms()) {
         let expected = read(&plain_folder().open().unwrap());
@@ -200,7 +200,7 @@ proptest! {
     }
 }
 
-/// A crop that moves is one picture: what is outside of a frame's window is no surface.
+/// A moving crop is one picture: pixels outside of a frame's window are no surface.
 #[test]
 fn crops_lie_in_one_picture() {
     let folder = Folder::new();
@@ -242,17 +242,17 @@ fn file_names_are_read_as_people_write_them() {
             sequence.files.iter().map(|file| file.path.file_name().unwrap().to_str().unwrap()).collect();
         assert_eq!(found, list);
     }
-    // Results and references beside the frames are none.
+    // Results and references beside the frames are no frames.
     let folder = names(&["0001.exr", "0002.exr", "denoised_0001.exr", "reference_0001.exr"]);
     assert_eq!(folder.open().unwrap().frames(), 2);
-    // Two sequences: one has to be named, by a pattern or by one of its frames.
+    // A folder with two sequences needs a pattern or one of the frames to name one.
     let folder = names(&["a.1.exr", "a.2.exr", "b.7.exr"]);
     let error = folder.open().unwrap_err().to_string();
     assert!(error.contains("has several sequences, a.####.exr (2), b.####.exr (1)"), "{error}");
     for input in ["a.####.exr", "a.2.exr"] {
         assert_eq!(Sequence::open(folder.0.join(input).as_path(), |_| {}).unwrap().frames(), 2);
     }
-    // Of names with several numbers, a pattern or a file says which is the frame's. Hidden files are none.
+    // For names with several numbers, a pattern or a file determines the frame's number. Hidden files are no frames.
     let grid = ["cam1_1.exr", "cam1_2.exr", "cam2_1.exr", "cam2_2.exr", "cam3_1.exr", "cam3_2.exr", "._cam1_1.exr"];
     let folder = names(&grid);
     for input in ["cam1_####.exr", "cam1_1.exr"] {
@@ -281,7 +281,7 @@ fn gaps_and_cuts_begin_anew() {
     write(&[0, 1, 2, 4, 5]);
     let sequence = folder.open().unwrap();
     assert_eq!((sequence.step, sequence.breaks.as_slice()), (1, [None, None, None, Some(Break::Gap), None].as_slice()));
-    // On twos: nothing is missing.
+    // On twos, nothing is missing.
     write(&[1, 3, 5, 9]);
     let sequence = folder.open().unwrap();
     assert_eq!((sequence.step, sequence.breaks.as_slice()), (2, [None, None, None, Some(Break::Gap)].as_slice()));
@@ -307,7 +307,7 @@ fn gaps_and_cuts_begin_anew() {
     }
 }
 
-/// Of a manifest with cameras for all frames, those that are read have their own.
+/// With a manifest for all frames, the frames that are read have their own cameras.
 #[test]
 fn frames_keep_their_cameras() {
     let folder = Folder::new();
@@ -326,7 +326,7 @@ fn frames_keep_their_cameras() {
     assert_eq!(eyes(&[1.0, 2.0, 3.0, 4.0], None), [1.0, 2.0, 4.0]);
     assert_eq!(eyes(&[1.0, 2.0, 4.0], Some([2, 9])), [2.0, 4.0]);
     assert_eq!(eyes(&[7.0], None), [7.0; 3], "one for all");
-    // Cameras of a whole shot, of which a part was rendered again: which are meant has to be said.
+    // Cameras of a whole shot, of which a part was rendered again: the user has to say which they are.
     let cameras: Vec<_> = (0..6).map(|x| camera(f64::from(x))).collect();
     let open = |manifest: serde_json::Value| {
         fs::write(folder.0.join("manifest.json"), manifest.to_string()).unwrap();
@@ -382,7 +382,7 @@ fn a_mapping_says_what_the_numbers_are() {
     assert!(error.contains("there is no channel x.W") && error.contains("the file has"), "{error}");
 }
 
-/// The compositor's picture has been put together: its colours are not those of a view layer's guides.
+/// The compositor's picture is composed: its colours do not belong to a view layer's guides.
 #[test]
 fn a_composite_is_not_taken_unasked() {
     let folder = Folder::new();
@@ -426,7 +426,7 @@ fn renamed(front: &str, name: &str) -> String {
     if name.contains('.') { format!("{front}.{name}") } else { format!("{front}.Combined.{name}") }
 }
 
-/// A file with half floats is answered with half floats, alpha and attributes, one with everything on request.
+/// A file with half floats yields half floats, alpha and attributes, and all of its channels on request.
 #[test]
 fn what_goes_in_comes_out() {
     use asvgf_programs::arguments::Format;
@@ -468,7 +468,7 @@ fn what_goes_in_comes_out() {
     assert_eq!(names.len(), 2, "nothing half-written is left: {names:?}");
 }
 
-/// Depths below 0 are those before the camera; depths of 0 everywhere are none.
+/// Depths below 0 are those in front of the camera; depths of 0 everywhere are absent.
 #[test]
 fn depths_of_either_sign_are_read() {
     let written = |factor: f32| {
@@ -485,7 +485,7 @@ fn depths_of_either_sign_are_read() {
     assert_eq!(written(0.0), (false, true, 1.0), "a wall stands in");
 }
 
-/// What is written is never what was read.
+/// Input files are never written.
 #[test]
 fn no_output_is_a_frame() {
     use asvgf_programs::denoise::options::{Request, parse};

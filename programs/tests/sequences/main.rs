@@ -1,4 +1,4 @@
-//! Sequences of EXR files: how they are read, denoised by `denoise` and scored by `score`.
+//! Sequences of EXR files: reading, denoising by `denoise`, and scoring by `score`.
 
 mod cameras;
 mod command_line;

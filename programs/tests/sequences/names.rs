@@ -1,4 +1,4 @@
-//! Names that other renderers have for the channels.
+//! Other renderers' names of the channels.
 
 use crate::folder::{Folder, add, rename, wall};
 use asvgf_programs::sequence::layers::{Layer, Mapping};

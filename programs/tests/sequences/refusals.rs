@@ -1,4 +1,4 @@
-//! What is wrong with a sequence is found before anything is written, and named.
+//! Errors in a sequence are found and named before anything is written.
 
 use crate::folder::{Folder, add, wall};
 use asvgf_programs::sequence::layers::Layer;

@@ -1,4 +1,4 @@
-//! Frames that see later ones, cuts, motion that leads astray, and albedos that are noise.
+//! Frames that see later ones, cuts, wrong motion, and albedos that are noise.
 
 use crate::folder::{Folder, Frames, add, random, wall};
 use asvgf::Settings;
@@ -30,7 +30,7 @@ fn denoised(sequence: &Sequence, ahead: bool) -> (Vec<Vec<[f32; 3]>>, Denoised) 
     (frames, told.unwrap())
 }
 
-/// A wall of radiance `light(frame)` with exponential noise.
+/// Writes a wall of radiance `light(frame)` with exponential noise.
 fn lit(folder: &Folder, frames: u32, light: &dyn Fn(u32) -> f32) {
     for frame in 0..frames {
         let mut image = wall(SIZE);
@@ -43,7 +43,7 @@ fn lit(folder: &Folder, frames: u32, light: &dyn Fn(u32) -> f32) {
     }
 }
 
-/// Mean squared error over the squared light.
+/// Returns the mean squared error over the squared light.
 fn error(frame: &[[f32; 3]], light: f32) -> f64 {
     let square = |c: &[f32; 3]| f64::from((c[0] - light) / light).powi(2);
     frame.iter().map(square).sum::<f64>() / frame.len() as f64
@@ -60,12 +60,13 @@ fn a_frame_sees_what_comes_after_it() {
     assert!(seen < 0.6 * alone);
     let sum = |frames: &[Vec<[f32; 3]>]| frames.iter().map(|frame| error(frame, 1.0)).sum::<f64>();
     assert!(sum(&both) < 0.9 * sum(&past), "{} of {}", sum(&both), sum(&past));
-    // The last frame has no future: it is what its past makes of it.
+    // The last frame has no future: its estimate is that of its past.
     let last: f64 = both[9].iter().zip(&past[9]).map(|(a, b)| f64::from((a[0] - b[0]).abs())).sum();
     assert!(last / (36.0 * 24.0) < 0.02, "{last}");
 }
 
-/// Where the light changes, the past knows nothing of what is new, and the future does; and the other way round.
+/// After a change of the light, the past does not know the new light, and the future does; before it, the other way
+/// round.
 #[test]
 fn neither_past_nor_future_lights_the_other() {
     let folder = Folder::new();
@@ -80,7 +81,7 @@ fn neither_past_nor_future_lights_the_other() {
     assert!(told.cuts.is_empty() && told.complaint.is_none());
 }
 
-/// Two shots of surfaces of their own: the second begins anew, and says so.
+/// Two shots of different surfaces: the second begins anew, and the program says so.
 #[test]
 fn cuts_are_found() {
     let folder = Folder::new();
@@ -99,7 +100,7 @@ fn cuts_are_found() {
     }
 }
 
-/// Bars of many depths and directions that move by a vector, and the frame before.
+/// Returns bars of many depths and directions that move by a vector, and the frame before.
 fn moving_bars(by: [i32; 2]) -> [Pixels; 2] {
     let frame = |by: [i32; 2]| {
         let mut pixels = Pixels(vec![None; Layer::ALL.len()]);
@@ -113,7 +114,7 @@ fn moving_bars(by: [i32; 2]) -> [Pixels; 2] {
     [frame(by), frame([0, 0])]
 }
 
-/// The sign, axis or unit of motion that is wrong is named, and motion that is right is not complained of.
+/// A wrong sign, axis or unit of motion is named, and right motion causes no complaint.
 #[test]
 fn motion_that_leads_astray_is_told() {
     let by = [5, 4];
@@ -144,10 +145,10 @@ fn motion_that_leads_astray_is_told() {
     assert!(told.contains("its sign, its unit or its axis is wrong"), "{told}");
 }
 
-/// An albedo by a number of its own in each frame, and by its place on the surface.
+/// An albedo as a function of the frame and of the place on the surface.
 type Albedo<'a> = &'a dyn Fn(u32, f32, f32) -> f32;
 
-/// The part of a surface that is taken for noise.
+/// Returns the part of a surface that counts as noise.
 fn noise(albedo: Albedo<'_>, motion: [f32; 2]) -> f32 {
     let frame = |number: u32| {
         let mut pixels = Pixels(vec![None; Layer::ALL.len()]);
@@ -156,7 +157,7 @@ fn noise(albedo: Albedo<'_>, motion: [f32; 2]) -> f32 {
         pixels.set(Layer::Normal, Some([0.0, 0.0, 1.0].repeat(count)));
         let value = |i: usize| {
             let place = [i as u32 % SIZE[0], i as u32 / SIZE[0]].map(|x| x as f32);
-            // It has moved on since the first frame.
+            // The surface has moved on since the first frame.
             let at = [0, 1].map(|k| place[k] + number as f32 * motion[k]);
             [albedo(number * count as u32 + i as u32, at[0], at[1]); 3]
         };
@@ -203,7 +204,7 @@ fn textures_are_told_from_noise() {
     }
 }
 
-/// A metal whose albedo is what single paths saw: radiance and albedo have the same zeros and peaks.
+/// A metal whose albedo comes from single paths: radiance and albedo have the same zeros and peaks.
 #[test]
 fn a_noisy_albedo_leaves_no_holes() {
     let folder = Folder::new();
@@ -241,7 +242,7 @@ fn a_noisy_albedo_leaves_no_holes() {
     }
 }
 
-/// Without guides there is less to go by, and still a picture: noise goes, borders of light stay.
+/// Without guides the filter has less information, and still yields a picture: noise goes, borders of light stay.
 #[test]
 fn colours_alone_are_denoised() {
     let folder = Folder::new();
@@ -267,7 +268,7 @@ fn colours_alone_are_denoised() {
     assert!(mean < 0.05 && beside < 0.5);
 }
 
-/// Normals that are made of depths are those of the surfaces.
+/// Normals made from depths are those of the surfaces.
 #[test]
 fn normals_are_made_of_depths() {
     let folder = Folder::new();
@@ -290,14 +291,15 @@ fn normals_are_made_of_depths() {
     };
     let pixels = Sequence::open(source, |_| {}).unwrap().read(0).unwrap();
     let normals = pixels.get(Layer::Normal).unwrap();
-    // Where they meet, either will do.
+    // At the border, either normal will do.
     for i in (0..SIZE[0] * SIZE[1]).filter(|i| !(17..=18).contains(&(i % SIZE[0]))) {
         let cosine: f64 = (0..3).map(|k| f64::from(normals[3 * i as usize + k]) * n(i)[k]).sum();
         assert!(cosine > 0.999, "pixel {i}: {:?}", &normals[3 * i as usize..][..3]);
     }
 }
 
-/// A surface whose albedo is black where it shines, and white where it does not: the albedo is not used. Ink that is dark stays ink.
+/// A surface whose albedo is black where it shines, and white where it does not: the albedo is not used. Dark ink stays
+/// ink.
 #[test]
 fn an_albedo_that_the_light_belies_is_not_used() {
     let folder = Folder::new();
@@ -324,7 +326,7 @@ fn an_albedo_that_the_light_belies_is_not_used() {
     for belied in [true, false] {
         for (number, frame) in frames(belied).iter().enumerate() {
             let off = |i: usize| f64::from((frame[i][0] - if shines(i) { 1.0 } else { 0.0 }).abs());
-            // Away from the border, which light alone tells.
+            // Pixels away from the border, which only the light reveals.
             let inner = (0..frame.len()).filter(|i| (i % 36).abs_diff(18) > 4);
             let worst = inner.map(off).fold(0.0, f64::max);
             println!("{belied}: frame {number} is off by {worst:.3} at most");
@@ -362,7 +364,7 @@ fn edges_are_as_the_whole_pixel_shows_them() {
     assert!((mean - 0.5).abs() < 0.02, "{mean}");
 }
 
-/// A floor whose depths are of the pixels' middles, or of any points in them.
+/// A floor whose depths belong to the pixels' middles, or to any points in them.
 #[test]
 fn points_all_over_the_pixels_are_noticed() {
     for (scatter, expected) in [(0.0, None), (0.3, Some(Area::Scattered)), (1.0, Some(Area::Scattered))] {
@@ -387,7 +389,8 @@ fn points_all_over_the_pixels_are_noticed() {
     }
 }
 
-/// A few pixels of a lit wall whose albedo is black, or below it, as filters of pixels make it: they shine no more than the others.
+/// A few pixels of a lit wall whose albedo is black, or below it, as pixel filters make it: they shine no more than the
+/// others.
 #[test]
 fn a_lone_black_albedo_does_not_shine() {
     for black in [0.0, -0.01] {
@@ -414,7 +417,7 @@ fn a_lone_black_albedo_does_not_shine() {
     }
 }
 
-/// Motion that no file means, of a few pixels, costs only these.
+/// Impossible motion of a few pixels costs only these.
 #[test]
 fn motion_out_of_all_bounds_is_borne() {
     let folder = Folder::new();

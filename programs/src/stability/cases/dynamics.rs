@@ -1,5 +1,5 @@
-//! Light that changes fast, slowly, and both at once. How a lamp that blinks is followed in traced scenes is in
-//! tests/gpu/behaviour/change.rs.
+//! Light that changes fast, slowly, and both at once. tests/gpu/behaviour/change.rs tests the response to a blinking
+//! lamp in traced scenes.
 
 use super::painted::{Painted, Path, adaptive, grey};
 use super::{Breaks, Case, Worst};
@@ -8,7 +8,8 @@ use asvgf::{FilterSettings, Settings};
 
 const SIZE: [u32; 2] = [24, 18];
 
-/// Three standard errors of the mean of one frame's 432 samples, of which each deviates by 1/√3, halved by the least smoothing.
+/// Three standard errors of the mean of one frame's 432 samples, each with a deviation of 1/√3, halved by the least
+/// smoothing.
 const NOISE: f64 = 3.0 * 0.577 / 20.8;
 
 pub const CASES: &[Case] = &[
@@ -95,7 +96,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// Largest of |mean of the image − level| / scale over frames.
+/// Returns the largest of |mean of the image − level| / scale over frames.
 fn largest_error(frames: std::ops::Range<u32>, level: &dyn Fn(u32) -> f64, scale: &dyn Fn(u32) -> f64) -> f64 {
     let mut host = Painted::new(SIZE, adaptive());
     let mut worst = 0.0_f64;
@@ -108,7 +109,7 @@ fn largest_error(frames: std::ops::Range<u32>, level: &dyn Fn(u32) -> f64, scale
     worst
 }
 
-/// Which of two levels a light has that changes every so many frames.
+/// Returns the level, of two, of a light that changes every `period` frames.
 fn strobe(frame: u32, period: u32, levels: [f64; 2]) -> f64 {
     levels[(frame / period % 2) as usize]
 }
@@ -153,7 +154,7 @@ fn ramp_constant() -> Worst {
         let image = host.frames(frames, &|path| grey(level(path.frame)));
         let lag = level(frames - 1) - mean(&image);
         let expected = (1.0 / f64::from(alpha) - 1.0) * 0.01;
-        // What the taps round is no lag.
+        // The rounding of the taps is no lag.
         let rounding = level(frames) / 4096.0;
         worst.add(((lag - expected).abs() - rounding).max(0.0) / expected, || format!("α = {alpha}: {lag:.5}"));
     }
@@ -173,7 +174,7 @@ fn ramp_adaptive() -> Worst {
     worst
 }
 
-/// Means of the image in frames 24 … 40 of a light.
+/// Returns the mean of the image over frames 24 … 40 of a light.
 fn later(light: &dyn Fn(&Path) -> f64) -> f64 {
     let mut host = Painted::new([36, 27], adaptive());
     (0..40)
@@ -187,7 +188,7 @@ fn later(light: &dyn Fn(&Path) -> f64) -> f64 {
 fn beside_a_bright_one() -> Worst {
     let mut worst = Worst::default();
     for until in [20, 0] {
-        // Half of the paths see each, with twice its radiance.
+        // Half of the paths see each light, with twice its radiance.
         let light = |path: &Path| match path.uniform(1) < 0.5 {
             true => 40.0 * path.noise(),
             false if path.frame < until => 2.0 * path.noise(),
@@ -199,7 +200,7 @@ fn beside_a_bright_one() -> Worst {
     worst
 }
 
-/// What is left of a light that this part of the paths sees.
+/// Returns the remaining part of a light that this part of the paths sees.
 fn left_of(part: f64) -> f64 {
     let light = |path: &Path| {
         let seen = path.frame < 20 && path.uniform(1) < part;
@@ -235,7 +236,7 @@ fn frame_rates() -> Worst {
     let mut worst = Worst::default();
     for frames in [240, 60, 15, 4] {
         let mut host = Painted::new(SIZE, adaptive());
-        // A soft spot goes to and fro.
+        // A soft spot moves back and forth.
         let spot = |pixel: [u32; 2], frame: u32| {
             let t = (f64::from(frame) / f64::from(frames)).fract();
             let x = 24.0 * (2.0 * t - 1.0).abs();
@@ -252,7 +253,7 @@ fn frame_rates() -> Worst {
     worst
 }
 
-/// With another longest history: for the long runs.
+/// Returns settings with another longest history, for the long runs.
 pub fn plain(max_history: f32) -> Settings {
     let filter = FilterSettings { max_history, ..Settings::adaptive().constant(0.0).filter };
     Settings { filter, ..Settings::adaptive() }

@@ -1,6 +1,8 @@
-//! Cuts, teleports and whatever else comes between two frames. New sizes, scenes, modes and left out frames that begin anew are in
-//! tests/gpu/behaviour/lifecycle.rs and tests/gpu/host/recording.rs, several frames in one submission in those named `recording.rs`,
-//! cameras that are refused in those named `refusals.rs`.
+//! Cuts, teleports and other events between two frames. Other files test related events:
+//! - tests/gpu/behaviour/lifecycle.rs and tests/gpu/host/recording.rs have new sizes, scenes and modes, and skipped
+//!   frames, after which histories begin anew.
+//! - Files named `recording.rs` have several frames in one submission.
+//! - Files named `refusals.rs` have refused cameras.
 
 use super::painted::{Painted, Path, adaptive, grey, with};
 use super::{Breaks, Case, Worst, difference, unusable};
@@ -102,7 +104,7 @@ fn noisy(path: &Path) -> Rgb {
     grey(path.noise())
 }
 
-/// Error after four frames of a run that had eight others before, over that of one that had none.
+/// Returns the error after four frames of a run with eight other frames before, over that of a run with none, minus 1.
 fn against_a_fresh_run(mut used: Stage, mut fresh: Stage, reference: &[Rgb]) -> f64 {
     fresh.index = used.index;
     let errors = [&mut used, &mut fresh].map(|stage| relative_mse(&stage.frames(4).image(), reference));
@@ -217,7 +219,7 @@ fn teleports() -> Worst {
     worst
 }
 
-/// A floor of 40 × 4 with 200 lights over it, each of which reaches 1 far. The last is at its right end.
+/// Builds a floor of 40 × 4 with 200 lights over it, each with a range of 1. The last is at its right end.
 fn many_lights() -> Stage {
     let floor = quad([-20.0, 0.0, 2.0], [40.0, 0.0, 0.0], [0.0, 0.0, -4.0], 0);
     let mut scene = scene(vec![lambert([0.8; 3])], vec![floor]);
@@ -253,7 +255,7 @@ fn lights() -> Worst {
     worst
 }
 
-/// Filters at the ends of what is accepted.
+/// Returns filters at the limits of the accepted ranges.
 fn extremes() -> Vec<FilterSettings> {
     let default = FilterSettings::default;
     let classic = FilterSettings::classic;
@@ -281,7 +283,7 @@ fn extremes() -> Vec<FilterSettings> {
 fn settings() -> Worst {
     let mut worst = Worst::default();
     let mut host = Painted::new(SIZE, adaptive());
-    // A second surface at a right angle, and some sky.
+    // Adds a second surface at a right angle, and some sky.
     let spoil = |views: &mut super::painted::Views| {
         for i in 0..views.depth.len() {
             match i % 24 {
@@ -327,7 +329,8 @@ fn bias_of_settings() -> Worst {
 fn wrap() -> Worst {
     let mut worst = Worst::default();
     for gradient in [Gradient::Reshade, Gradient::BlinnPhong] {
-        // A pixel that turns out to be a highlight drops its history: here nothing may.
+        // The outlier limit is off, because a highlight drops a pixel's history when it is detected, and here no
+        // history may fall.
         let filter = FilterSettings { gradient, outlier_limit: 0.0, ..Default::default() };
         let settings = Settings { filter, ..Settings::adaptive() };
         let mut stage = Stage::built_in("cornell", "static", [31, 17], settings);

@@ -1,15 +1,17 @@
-//! A furnace: convex surfaces of albedo ½ under a white sky reflect ½ in every pixel, whatever their shape, and the sky is 1. With rays
-//! that are scattered by the cosine there is no noise, so that a single ray that meets the surface it left is seen as dark.
+//! A furnace: convex surfaces of albedo ½ under a white sky reflect ½ in every pixel, whatever their shape, and the sky
+//! is 1. Rays scattered by the cosine have no noise, so a single ray that hits the surface of its origin shows as a
+//! dark pixel.
 
 use crate::stability::common::scenes::{lambert, scene};
 use crate::stability::common::stage::Stage;
 use asvgf::scene::{Environment, GpuScene, Mesh, Scene};
 use asvgf::{Camera, Sampling, Settings, TracerSettings, View};
 
-/// A thousandth: albedo has 10 bits, radiance 18, the spatial filter's taps 10. All hold 1 and ½; weights that sum to 1 do not quite.
+/// A thousandth: albedo has 10 bits, radiance 18, the spatial filter's taps 10. All represent 1 and ½ exactly; weights
+/// that sum to 1 do so only roughly.
 pub const ROUNDING: f64 = 1e-3;
 
-/// Grey meshes under a white sky.
+/// Returns grey meshes under a white sky.
 pub fn grey(meshes: Vec<Mesh>) -> Scene {
     Scene { environment: Some(Environment::uniform([1.0; 3])), ..scene(vec![lambert([0.5; 3])], meshes) }
 }
@@ -28,24 +30,24 @@ impl Furnace {
         self.0.resize(size);
     }
 
-    /// As [`Furnace::farthest`], infinite if no pixel sees a surface.
+    /// Returns [`Furnace::farthest`], infinite if no pixel sees a surface.
     pub fn farthest_seen(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
         let farthest = self.farthest(scene, frames, camera);
         let sees = self.0.view(View::Depth).iter().any(|d| d[0] > 0.0);
         if sees { farthest } else { f64::INFINITY }
     }
 
-    /// The farthest from 1 and ½ that any pixel is over frames; `camera` tells where each is seen from.
+    /// Returns the largest distance of a pixel from 1 and ½ over frames; `camera` returns the camera of each.
     pub fn farthest(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
         self.largest(scene, frames, camera, |x| (x - 1.0).abs().min((x - 0.5).abs()))
     }
 
-    /// The brightest that any pixel is over frames.
+    /// Returns the radiance of the brightest pixel over frames.
     pub fn brightest(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
         self.largest(scene, frames, camera, |x| x)
     }
 
-    /// The largest of a quantity of the pixels' radiance over frames.
+    /// Returns the largest of a quantity of the pixels' radiance over frames.
     fn largest(
         &mut self,
         scene: Scene,

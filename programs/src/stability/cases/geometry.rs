@@ -11,7 +11,7 @@ use std::f32::consts::PI;
 
 const SIZE: [u32; 2] = [32, 24];
 
-/// What every case of this group measures.
+/// Quantity that every case of this group measures.
 const QUANTITY: &str = "largest difference of a pixel from ½ (surface) or 1 (sky); infinite if no surface is seen";
 const ORIGIN: &str =
     "a convex surface of albedo ½ under a white sky reflects ½, and no ray may meet the surface that it left";
@@ -160,7 +160,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// A ball of 12 × 30 quads about a place.
+/// Builds a ball of 12 × 30 quads around a place.
 fn ball(radius: f32, centre: [f32; 3]) -> Mesh {
     let (rings, sectors) = (12_u32, 30_u32);
     let point = |ring: u32, sector: u32| {
@@ -177,12 +177,12 @@ fn ball(radius: f32, centre: [f32; 3]) -> Mesh {
     Mesh { positions, triangles, ..Default::default() }
 }
 
-/// A plane facing +Z about a place.
+/// Builds a plane that faces +Z, around a place.
 fn plane(half: f32, [x, y, z]: [f32; 3]) -> Mesh {
     quad([x - half, y - half, z], [2.0 * half, 0.0, 0.0], [0.0, 2.0 * half, 0.0], 0)
 }
 
-/// From a place towards −Z.
+/// Returns a camera at a place that looks towards −Z.
 fn looking(eye: [f64; 3]) -> Camera {
     Camera { eye, target: [eye[0], eye[1], eye[2] - eye[2].abs().max(1.0)], ..Default::default() }
 }
@@ -236,7 +236,7 @@ fn far_away_break() -> String {
         .map_or("none up to 10¹²".into(), |d| format!("{d:e} away"))
 }
 
-/// The mean of a corner's image with noise that is always the same.
+/// Returns the mean of a corner's image with noise that is always the same.
 fn corner_mean(scene: Scene, place: [f64; 3]) -> f64 {
     let tracer = TracerSettings { samples: 64, ..Default::default() };
     let mut stage = Stage::new(scene, [64, 48], Settings { tracer, ..Settings::adaptive() });
@@ -244,7 +244,7 @@ fn corner_mean(scene: Scene, place: [f64; 3]) -> f64 {
     mean(&stage.frame().image())
 }
 
-/// A corner that stands elsewhere: by its vertices, or by its nodes.
+/// Builds a corner elsewhere, moved by its vertices or by its nodes.
 fn corner_at(place: [f64; 3], by_nodes: bool) -> Scene {
     let translation = place.map(|x| x as f32);
     if !by_nodes {
@@ -273,20 +273,21 @@ fn far_corner() -> Worst {
     worst
 }
 
-/// Copies of a small triangle, by which a scene about a place contains as much on the other side of the origin.
+/// Builds copies of a small triangle on the other side of the origin, so that the scene is as large there as around a
+/// place.
 fn opposite([x, y, z]: [f32; 3], copies: usize) -> Mesh {
     let positions = vec![[-x, -y, -z], [-x + 1e-2, -y, -z], [-x, -y + 1e-2, -z]];
     Mesh { positions, triangles: vec![[0, 1, 2]; copies], ..Default::default() }
 }
 
-/// So few triangles that a software adapter tests each, and so many that it makes a tree of them.
+/// So few triangles that a software adapter tests each, and so many that it builds a tree of them.
 const FEW_AND_MANY: [usize; 2] = [1, 70];
 
-/// What lights a corner.
+/// Light source of a corner.
 #[derive(Clone, Copy, Debug)]
 enum Lit {
     BySky,
-    /// By a lamp that hangs low and is tilted.
+    /// A low, tilted lamp.
     ByLamp,
 }
 
@@ -302,7 +303,7 @@ fn corner_off_centre(lit: Lit, distance: f32) -> f64 {
         }
         scene
     };
-    // In no direction are all coordinates round.
+    // No direction has only round coordinates.
     let place = [distance, 0.125 * distance, -0.5 * distance];
     let mut scene = lit_corner(place);
     scene.meshes.push(opposite(place, 70));
@@ -323,12 +324,12 @@ fn large_scene_break() -> String {
     found.map_or("none up to 16 000 km".into(), |d| format!("{:.0} km from the centre", d / 1000.0))
 }
 
-/// A place whose coordinates are not round.
+/// Returns a place whose coordinates are not round.
 fn off_centre(distance: f32) -> [f32; 3] {
     [0.83, 0.31, -0.47].map(|x| x * distance)
 }
 
-/// A tilted plate about a place.
+/// Builds a tilted plate around a place.
 fn plate(tilt: f32, centre: [f32; 3]) -> Mesh {
     let (s, c) = tilt.sin_cos();
     let (u, v) = ([2.0 * c, 0.3, -2.0 * s], [0.2 * s, 2.0, 0.2 * c]);
@@ -343,7 +344,7 @@ fn bodies_in_large_scene() -> Worst {
         let bodies = [0.0, 0.2, 0.7, -0.5].map(|tilt| (format!("a plate at {tilt}"), plate(tilt, [0.0; 3])));
         for (name, body) in bodies.into_iter().chain([("a ball".to_owned(), ball(1.0, [0.0; 3]))]) {
             for (turned, count) in FEW_AND_MANY.into_iter().flat_map(|n| [(false, n), (true, n)]) {
-                // Turned by a node that may move, or moved by its vertices.
+                // A movable node turns the body, or the vertices move it.
                 let mut own = body.clone();
                 if !turned {
                     own.positions.iter_mut().for_each(|p| *p = [0, 1, 2].map(|i| p[i] + place[i]));
@@ -392,7 +393,7 @@ fn enclosed_in_large_scene() -> Worst {
 fn depths() -> Worst {
     let mut furnace = Furnace::new(SIZE);
     let mut worst = Worst::default();
-    // Each a little to the side, so that all are seen.
+    // Each plane is a little to the side, so that the camera sees all of them.
     let planes = [1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6, 1e8_f32].into_iter().enumerate().map(|(i, z)| {
         let x = z * (0.16 * i as f32 - 0.5);
         plane(0.07 * z, [x, 0.0, -z])
@@ -419,7 +420,7 @@ fn grazing() -> Worst {
     worst
 }
 
-/// A plane this large, seen from 3 away.
+/// Measures a plane of this size, seen from 3 away.
 fn large(furnace: &mut Furnace, half: f32) -> f64 {
     let camera = |_| Camera { eye: [0.3, 0.2, 3.0], target: [0.0; 3], ..Default::default() };
     furnace.farthest_seen(grey(vec![plane(half, [0.0; 3])]), 3, camera)
@@ -473,7 +474,7 @@ fn degenerate() -> Worst {
     worst
 }
 
-/// Triangles of a plane, side by side, or all in one place.
+/// Builds triangles of a plane, side by side, or all in one place.
 fn triangles(count: u32, one_place: bool) -> Scene {
     let width = if one_place { 0.1 } else { 2.0 / count.max(1) as f32 };
     let corner = |i: u32| if one_place { 0.0 } else { -1.0 + 2.0 * i as f32 / count as f32 };
@@ -491,7 +492,7 @@ fn counts() -> Worst {
     for (count, one_place) in kinds {
         let scene = triangles(count, one_place);
         let camera = |_| looking([0.0, 0.0, 3.0]);
-        // What is all in one place covers no pixel's centre.
+        // Triangles in one place cover no pixel's centre.
         let value = if count == 0 || one_place {
             furnace.farthest(scene, 2, camera)
         } else {
@@ -503,7 +504,7 @@ fn counts() -> Worst {
 }
 
 fn awkward() -> Worst {
-    // Odd, so that the middle pixel's ray is the axis itself.
+    // The size is odd, so that the middle pixel's ray is the axis itself.
     let mut furnace = Furnace::new([33, 25]);
     let mut worst = Worst::default();
     let eyes = [
@@ -515,13 +516,13 @@ fn awkward() -> Worst {
     ];
     for (name, eye, target) in eyes {
         let camera = |_| Camera { eye, target, ..Default::default() };
-        // From within its plane, a surface is not seen.
+        // A camera in a surface's plane does not see the surface.
         worst.add(furnace.farthest(grey(vec![plane(1.0, [0.0; 3])]), 3, camera), || name.into());
     }
     worst
 }
 
-/// A box with the corners ±`half`, closed.
+/// Builds a closed box with the corners ±`half`.
 fn closed_box(half: f32) -> Mesh {
     let at = |x: i32, y: i32, z: i32| [x, y, z].map(|sign| sign as f32 * half);
     let positions = (0..8).map(|i| at((i & 1) * 2 - 1, (i & 2) - 1, (i & 4) / 2 - 1)).collect();
@@ -540,7 +541,7 @@ fn enclosed() -> Worst {
             for (place, eye) in eyes {
                 let eye = eye.map(|x: f64| x * f64::from(scale));
                 let camera = |frame| {
-                    // A vertex of the box, an edge, and faces.
+                    // The targets are a vertex of the box, an edge, and faces.
                     let target =
                         [[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.1], [0.3, -0.7, 0.2]][frame as usize % 4];
                     Camera { eye, target: target.map(|x: f64| x * f64::from(scale)), fov_y: 2.0, ..Default::default() }
@@ -558,9 +559,9 @@ fn sub_pixel() -> Worst {
     let mut worst = Worst::default();
     // At distance 5, a pixel is 5 · 2 · tan(0.4) / 24 ≈ 0.18 wide.
     for pixels in [1.0, 0.3, 0.1_f32] {
-        // All in one plane, so that none shadows another.
+        // All cards are in one plane, so that none shadows another.
         let card = |i: u32| plane(0.09 * pixels, [-1.5 + 0.15 * (i % 20) as f32, -1.5 + 0.15 * (i / 20) as f32, 0.0]);
-        // Thirds and quarters: all twelve places in twelve frames.
+        // Thirds and quarters give all twelve places in twelve frames.
         let jitter = |frame: u32| [(frame % 3) as f32 / 3.0 - 0.33, (frame % 4) as f32 / 4.0 - 0.375];
         let camera = |frame| Camera { jitter: jitter(frame), ..looking([0.0, 0.0, 5.0]) };
         worst.add(furnace.farthest_seen(grey((0..400).map(card).collect()), 24, camera), || format!("{pixels} pixels"));
@@ -573,7 +574,7 @@ fn fields_of_view() -> Worst {
     let mut worst = Worst::default();
     for fov_y in [1e-6, 1e-3, 1.0, 3.0, PI - 1e-3] {
         let camera = |_| Camera { eye: [0.3, 0.2, 3.0], target: [0.0; 3], fov_y, ..Default::default() };
-        // As wide as what is seen.
+        // The plane is as wide as the view.
         let half = (10.0 * (0.5 * fov_y).tan()).max(1.0);
         worst.add(furnace.farthest_seen(grey(vec![plane(half, [0.0; 3])]), 3, camera), || format!("{fov_y} rad"));
     }

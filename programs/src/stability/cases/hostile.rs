@@ -1,5 +1,5 @@
-//! Views that no renderer should hand in. What the counts and the guards are is also in tests/gpu/host/cleaning.rs (pairs among
-//! them) and, for λ, in src/twins/temporal.rs.
+//! Views that no renderer should hand in. tests/gpu/host/cleaning.rs tests the counts and the guards too (pairs among
+//! them), and src/twins/temporal.rs those for λ.
 
 use super::painted::{Painted, Path, Views, adaptive, grey};
 use super::{Breaks, Case, Named, Worst, difference, unusable};
@@ -43,7 +43,7 @@ pub const CASES: &[Case] = &[
 const KINDS: [f32; 7] = [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, -1e30, f32::MAX];
 const SURFACE_KINDS: [f32; 9] = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -1.0, 1e-42, 1e-30, 1e30, f32::MAX];
 
-/// A view and a way to spoil a pixel of it.
+/// A view, and a function that spoils a pixel of it.
 type Spoil = Named<fn(&mut Views, usize, f32)>;
 
 const LIGHT: [Spoil; 3] = [
@@ -59,7 +59,7 @@ const SURFACE: [Spoil; 4] = [
     ("previous depth", |v, i, x| v.previous_depth[i][0] = x),
 ];
 
-/// Which pixels are spoilt.
+/// Predicate of the spoilt pixels.
 type Hit = fn(usize) -> bool;
 
 const PLACES: [Named<Hit>; 3] =
@@ -69,7 +69,7 @@ fn noisy(path: &Path) -> Rgb {
     grey(path.noise())
 }
 
-/// The counts of a finished frame. Another test's poll of the shared device may be the one that brings them.
+/// Returns the counts of a finished frame. The counts may arrive through another test's poll of the shared device.
 fn counts(host: &mut Painted) -> InputCounts {
     for _ in 0..1000 {
         if let Some(counts) = host.denoiser.take_counts() {
@@ -81,7 +81,7 @@ fn counts(host: &mut Painted) -> InputCounts {
     panic!("no counts of a finished frame");
 }
 
-/// Filters eight frames of which some are spoilt: pixels that cannot be shown, and miscounts.
+/// Filters eight frames, some of them spoilt; returns the number of pixels that cannot be shown, plus the miscounts.
 fn spoilt(host: &mut Painted, frames: u32, spoil: Spoil, value: f32, hit: Hit) -> f64 {
     host.denoiser.reset();
     host.index = 0;
@@ -99,10 +99,10 @@ fn spoilt(host: &mut Painted, frames: u32, spoil: Spoil, value: f32, hit: Hit) -
             number(is_light && !value.is_finite()),
             number(is_light && value.is_finite() && value < 0.0),
             number(match spoil.0 {
-                // Any length is taken but none.
+                // Any length above 0 is accepted.
                 "normal" => !(1e-6..1e18).contains(&value.abs()),
                 "motion" | "previous depth" => !value.is_finite(),
-                // No depth is no surface, which is allowed.
+                // A depth of 0 is a miss, which is allowed.
                 _ => false,
             }),
         ];
@@ -119,7 +119,7 @@ fn each(spoils: &[Spoil], kinds: &[f32]) -> Worst {
     for &spoil in spoils {
         for &value in kinds {
             for (place, hit) in PLACES {
-                // In each of four frames is the harder one; singly, one kind tells.
+                // Four frames in a row are the harder case; one kind is enough to test single frames.
                 for frames in if value.is_nan() { &[1, 4][..] } else { &[4] } {
                     worst.add(spoilt(&mut host, *frames, spoil, value, hit), || {
                         format!("{value:e} in {}, {place}, {frames} frames", spoil.0)
@@ -157,7 +157,7 @@ fn afterwards() -> Worst {
     let clean = run(None);
     for spoil in LIGHT.into_iter().chain(SURFACE) {
         let images = run(Some(spoil));
-        // Two frames' reach.
+        // Columns beyond the reach of the filter in two frames.
         let far = |image: &[Rgb]| -> Vec<Rgb> {
             image.iter().enumerate().filter(|(i, _)| i % 120 >= 80).map(|(_, c)| *c).collect()
         };

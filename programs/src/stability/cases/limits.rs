@@ -1,5 +1,5 @@
-//! Devices that are lost or offer too little. What is refused of views, sizes, settings and cameras is in the files named
-//! `refusals.rs`.
+//! Devices that are lost or offer too little. The files named `refusals.rs` test refused views, sizes, settings and
+//! cameras.
 
 use super::{Breaks, Case, Named, Worst};
 use crate::stability::common::gpu::texture;
@@ -54,7 +54,7 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// A device that validates and computes nothing, and counts its errors.
+/// Opens a device that validates and computes nothing, and counts its errors.
 fn idle(limits: Limits) -> (Device, Queue, Arc<AtomicU32>) {
     let noop = wgpu::NoopBackendOptions { enable: true, ..Default::default() };
     let instance = Instance::new(InstanceDescriptor {
@@ -77,7 +77,7 @@ fn view(device: &Device, size: [u32; 2], format: TextureFormat, usage: TextureUs
     texture(device, size, format, usage).create_view(&Default::default())
 }
 
-/// A host's views of one size.
+/// Views of one size that a host hands in.
 struct Images {
     depth: TextureView,
     color: TextureView,
@@ -101,7 +101,7 @@ impl Images {
     }
 }
 
-/// Which call comes first on a device that is lost by then.
+/// Calls, one of which is the first on a lost device.
 const CALLS: [&str; 6] = ["new", "begin_frame", "denoise", "render", "show", "resize"];
 
 fn lost() -> Worst {
@@ -118,13 +118,13 @@ fn lost() -> Worst {
     worst
 }
 
-/// Makes all calls of the interface in turn, after `before` with the number of each; returns how many panic.
+/// Makes all calls of the interface in turn, after `before` with the number of each; returns the number of panics.
 fn panics(device: &Device, queue: &Queue, size: [u32; 2], before: impl Fn(usize)) -> u32 {
     let images = Images::new(device, size);
     let descriptor = DenoiserDescriptor { size, diagnostics: true, ..Default::default() };
     let scene = builtin::scene("cornell", "all").unwrap();
     let mut panics = 0;
-    // What was not made cannot be called.
+    // Objects that could not be made cannot be called.
     let (mut denoiser, mut uploaded) = (None, None);
     for (number, step) in CALLS.into_iter().enumerate() {
         before(number);
@@ -161,12 +161,13 @@ fn panics(device: &Device, queue: &Queue, size: [u32; 2], before: impl Fn(usize)
     panics
 }
 
-/// wgpu refuses what would exceed a share of the memory that the driver says to be free: with a share of 0, all.
+/// Tests an allocation that wgpu refuses: it refuses any beyond a share of the driver's free memory; with a share of 0,
+/// all.
 fn out_of_memory() -> Worst {
     let mut worst = Worst::default();
     let thresholds = MemoryBudgetThresholds { for_resource_creation: Some(0), ..Default::default() };
     let instance = Instance::new(InstanceDescriptor {
-        // Those that know how much is free.
+        // These backends know the free memory.
         backends: wgpu::Backends::VULKAN | wgpu::Backends::DX12,
         memory_budget_thresholds: thresholds,
         ..InstanceDescriptor::new_without_display_handle()
@@ -187,7 +188,7 @@ fn out_of_memory() -> Worst {
     worst
 }
 
-/// A limit's name and how to lower it.
+/// A limit's name, and a function that lowers it.
 type Lower = Named<fn(&mut Limits)>;
 
 const LIMITS: [Lower; 10] = [

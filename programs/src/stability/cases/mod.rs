@@ -17,43 +17,43 @@ use crate::stability::common::statistics::Rgb;
 /// One row of the table.
 pub struct Case {
     pub name: &'static str,
-    /// What is varied, over which range.
+    /// The varied quantity, and its range.
     pub varied: &'static str,
-    /// What is measured.
+    /// The measured quantity.
     pub quantity: &'static str,
-    /// What it may be at most.
+    /// Largest allowed value.
     pub bound: f64,
-    /// Where the bound comes from.
+    /// Derivation of the bound.
     pub origin: &'static str,
     pub measure: fn() -> Worst,
     pub breaks: Breaks,
 }
 
-/// Where a bound no longer holds.
+/// Point from which on a bound no longer holds.
 pub enum Breaks {
-    /// Nowhere in the range that is accepted, for this reason.
+    /// Nowhere in the accepted range, for this reason.
     Never(&'static str),
     /// Outside of the range above, for this reason.
     Known(&'static str),
-    /// Where a search finds it.
+    /// A search finds it.
     Found(fn() -> String),
 }
 
-/// Something and what to call it.
+/// A value and its name.
 pub type Named<T> = (&'static str, T);
 
 /// The worst of several measurements.
 #[derive(Clone, Debug, Default)]
 pub struct Worst {
     pub value: f64,
-    /// What was put in there.
+    /// Input of the worst measurement.
     pub at: String,
-    /// How many there were.
+    /// Number of measurements.
     pub inputs: u32,
 }
 
 impl Worst {
-    /// Takes a measurement; what is not a number is worse than any.
+    /// Takes a measurement; NaN is worse than any number.
     pub fn add(&mut self, value: f64, at: impl FnOnce() -> String) {
         let value = if value.is_nan() { f64::INFINITY } else { value };
         if self.inputs == 0 || value > self.value {
@@ -63,12 +63,12 @@ impl Worst {
     }
 }
 
-/// Pixels that cannot be shown.
+/// Counts the pixels that cannot be shown.
 pub fn unusable(image: &[Rgb]) -> usize {
     image.iter().filter(|c| c.iter().any(|x| !x.is_finite() || *x < 0.0)).count()
 }
 
-/// The largest difference of two images.
+/// Returns the largest difference of two images.
 pub fn difference(a: &[Rgb], b: &[Rgb]) -> f64 {
     assert_eq!(a.len(), b.len());
     let each = a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| f64::from((x - y).abs()));

@@ -1,4 +1,4 @@
-//! Samples that are far brighter than light can be, and light that is far brighter than its surroundings.
+//! Samples far brighter than any light can be, and light far brighter than its surroundings.
 
 use super::painted::{Painted, Path, Views, adaptive, grey};
 use super::{Breaks, Case, Named, Worst};
@@ -68,7 +68,7 @@ fn noisy(path: &Path) -> Rgb {
     grey(path.noise())
 }
 
-/// Rates and brightnesses; but for what would be a part of the light that one may believe in.
+/// Returns rates and brightnesses, except for products that could be a plausible part of the light.
 fn product() -> impl Iterator<Item = (f64, f64)> {
     let all = [1e-5, 1e-4, 1e-3, 1.0 / 300.0]
         .into_iter()
@@ -93,7 +93,7 @@ fn rates() -> Worst {
     worst
 }
 
-/// Means over tiles of 12×12 pixels.
+/// Returns means over tiles of 12×12 pixels.
 fn tiles(image: &[Rgb]) -> Vec<f64> {
     let [width, height] = SIZE.map(|s| s as usize);
     let tile = |x: usize, y: usize| {

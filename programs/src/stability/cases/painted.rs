@@ -1,6 +1,8 @@
-//! A host whose renderer is a function: a wall in front of the camera, lit by whatever a case wants, one path per pixel.
+//! A host whose renderer is a function: a wall in front of the camera, lit by a function of the case, one path per
+//! pixel.
 //!
-//! As a host's renderer does, one pixel in nine repeats a path of the last frame in this frame's light, and the pairs are handed in.
+//! Like other hosts' renderers, it repeats a path of the last frame in one pixel of nine, in this frame's light, and
+//! hands the pairs in.
 
 use crate::stability::common::gpu::gpu;
 use crate::stability::common::images::{colors, upload};
@@ -11,7 +13,7 @@ use asvgf::{
 };
 use wgpu::{TextureFormat, TextureView};
 
-/// A path: where it starts, whose random numbers it takes, in which frame's light.
+/// A path: its start, the source of its random numbers, and the frame of its light.
 #[derive(Clone, Copy, Debug)]
 pub struct Path {
     pub pixel: [u32; 2],
@@ -20,7 +22,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// A random number of the path, 0…1 (SplitMix64 of all that it depends on).
+    /// Returns a random number of the path, 0…1 (SplitMix64 of the path and the draw).
     pub fn uniform(&self, draw: u64) -> f64 {
         let [x, y] = self.pixel.map(u64::from);
         let mut z = (x | y << 16 | u64::from(self.seed) << 32) ^ draw.wrapping_mul(0xd6e8_feb8_6659_fd93);
@@ -31,28 +33,28 @@ impl Path {
         ((z ^ (z >> 32)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// Noise of mean 1: 0…2.
+    /// Returns noise of mean 1: 0…2.
     pub fn noise(&self) -> f64 {
         2.0 * self.uniform(0)
     }
 }
 
-/// The same in each channel.
+/// Returns a colour with the same value in each channel.
 pub fn grey(value: f64) -> Rgb {
     [value as f32; 3]
 }
 
-/// The default filter, with pairs handed in.
+/// Returns the default filter, with pairs handed in.
 pub fn adaptive() -> Settings {
     with(FilterSettings::default())
 }
 
-/// A filter with pairs handed in.
+/// Returns a filter with pairs handed in.
 pub fn with(filter: FilterSettings) -> Settings {
     Settings { filter: FilterSettings { gradient: Gradient::Pairs, ..filter }, ..Settings::adaptive() }
 }
 
-/// What a host hands in, as images on the CPU: a case may spoil it.
+/// A host's input as images on the CPU, which a case may spoil.
 #[derive(Clone, Debug)]
 pub struct Views {
     pub depth: Vec<[f32; 1]>,
@@ -94,10 +96,10 @@ impl Painted {
         (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]))
     }
 
-    /// The next frame as a host would hand it in.
+    /// Returns the next frame as a host would hand it in.
     pub fn views(&self, light: &dyn Fn(&Path) -> Rgb) -> Views {
         let (index, before) = (self.index, self.index.wrapping_sub(1));
-        // The choice goes round the stratum, four places on, as the denoiser's own does.
+        // The choice goes around the stratum in steps of four places, as the denoiser's own does.
         let place = 4 * (index % 9) % 9;
         let repeats = |[x, y]: [u32; 2]| y % 3 * 3 + x % 3 == place;
         let own = |pixel| Path { pixel, seed: if repeats(pixel) { before } else { index }, frame: index };
@@ -118,7 +120,7 @@ impl Painted {
         }
     }
 
-    /// Filters what a host hands in.
+    /// Filters a host's input.
     pub fn denoise(&mut self, views: &Views) -> Vec<Rgb> {
         let (gpu, size) = (gpu(), self.denoiser.size());
         let [depth, previous_depth] = [&views.depth, &views.previous_depth].map(|image| upload(gpu, size, image));
@@ -155,14 +157,14 @@ impl Painted {
         (0..count).map(|_| self.frame(light)).last().unwrap_or_default()
     }
 
-    /// An intermediate image of the last frame, as numbers.
+    /// Returns an intermediate image of the last frame, as numbers.
     pub fn view(&mut self, view: View) -> Vec<Rgb> {
         let target = gpu().target(self.denoiser.size(), TextureFormat::Rgba32Float);
         gpu().submit(|e| self.denoiser.show(&gpu().device, e, view, ViewOptions::default(), &target)).unwrap();
         colors(gpu(), &target)
     }
 
-    /// The largest number of an intermediate image; infinite if one is not finite.
+    /// Returns the largest number of an intermediate image; infinite if one is not finite.
     pub fn largest(&mut self, view: View) -> f64 {
         let finite = |x: f32| if x.is_finite() { f64::from(x) } else { f64::INFINITY };
         self.view(view).iter().map(|c| finite(c[0])).fold(0.0, f64::max)

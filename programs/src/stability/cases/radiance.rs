@@ -8,7 +8,7 @@ use std::ops::Range;
 
 const SIZE: [u32; 2] = [24, 18];
 
-/// 10 mantissa bits of what the spatial filter reads, rounded once in each of its iterations and once before.
+/// 10 mantissa bits of the spatial filter's input, rounded once in each of its iterations and once before.
 const ROUNDING: f64 = 5.0 / 2048.0;
 
 pub const CASES: &[Case] = &[
@@ -97,21 +97,21 @@ pub const CASES: &[Case] = &[
     },
 ];
 
-/// A lamp with noise on a darker ground with noise, fireflies, and the lamp out from frame 8 on.
+/// Returns a lamp with noise on a darker ground with noise and fireflies; the lamp is out from frame 8 on.
 fn lively(path: &Path) -> f64 {
     let lamp = if path.pixel[0] < 12 && path.frame < 8 { 4.0 } else { 0.0 };
     let firefly = if path.uniform(1) < 0.01 { 50.0 } else { 0.0 };
     (0.25 + lamp + firefly) * path.noise()
 }
 
-/// The images of ten frames, and λ of each.
+/// Returns the images of ten frames, and λ of each.
 fn lively_frames(scale: f64) -> Vec<[Vec<Rgb>; 2]> {
     let mut host = Painted::new(SIZE, adaptive());
     let light = move |path: &Path| [1.0, 0.7, 0.4].map(|c| (scale * c * lively(path)) as f32);
     (0..10).map(|_| [host.frame(&light), host.view(View::Lambda)]).collect()
 }
 
-/// Largest relative difference from the scaled image, and of λ.
+/// Returns the largest relative difference from the scaled image, or the largest difference of λ.
 fn unit_difference(reference: &[[Vec<Rgb>; 2]], k: i32) -> f64 {
     let scale = f64::from(k).exp2();
     let mut worst = 0.0_f64;
@@ -142,7 +142,7 @@ fn units_break() -> String {
     format!("k = {down} and {up}, for radiances from 0.02 to 100")
 }
 
-/// Largest relative error of steady columns of radiances from 10^-range to 10^range.
+/// Returns the largest relative error of steady columns of radiances from 10^-range to 10^range.
 fn columns(range: f64) -> f64 {
     let light = |path: &Path| {
         let t = f64::from(path.pixel[0]) / f64::from(SIZE[0] - 1);
@@ -170,7 +170,7 @@ fn decades_break() -> String {
     first.map_or("none up to 10^±30".into(), |range| format!("10^±{range}"))
 }
 
-/// Mean luminance of some pixels over frames, filtered and of the samples that went in, each pixel of these.
+/// Returns the mean luminance of chosen pixels over frames: of the filtered image, and of its input samples.
 fn means(frames: Range<u32>, light: &dyn Fn(&Path) -> f64, among: impl Fn(usize) -> bool) -> [f64; 2] {
     let mut host = Painted::new(SIZE, adaptive());
     let mut sums = [0.0; 2];
@@ -189,7 +189,7 @@ fn means(frames: Range<u32>, light: &dyn Fn(&Path) -> f64, among: impl Fn(usize)
     sums.map(|s| s / frames.len() as f64)
 }
 
-/// Relative error of the mean, from a frame on, of a wall of 10⁻³ beside a sun with this noise.
+/// Returns the relative error of the mean, from a frame on, of a wall of 10⁻³ beside a sun with this noise.
 fn beside_the_sun(sun: f64, noise: f64, from: u32) -> f64 {
     let light = move |path: &Path| {
         if path.pixel[0] < 8 { sun * (1.0 + noise * (path.noise() - 1.0)) } else { 1e-3 * path.noise() }
@@ -250,7 +250,7 @@ fn one_pixel() -> Worst {
     worst
 }
 
-/// Mean of a wall of 1 with fireflies, and of the samples that went in.
+/// Returns the mean of a wall of 1 with fireflies, and of its input samples.
 fn with_fireflies(power: i32) -> [f64; 2] {
     let firefly = 10.0_f64.powi(power);
     let light = move |path: &Path| path.noise() + if path.uniform(1) < 1e-3 { firefly } else { 0.0 };

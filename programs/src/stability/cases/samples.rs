@@ -1,4 +1,4 @@
-//! Samples that are missing, infinite, or the same in every frame, and averages that never end.
+//! Samples that are missing, infinite, or the same in every frame, and averages without end.
 
 use super::painted::{Painted, Path, adaptive, grey};
 use super::{Breaks, Case, Named, Worst};
@@ -107,7 +107,7 @@ fn hundredth() -> Worst {
     mean_with(0.01, f32::INFINITY, 8..16)
 }
 
-/// How far the mean over frames is off if a part of the samples is no number.
+/// Returns the error of the mean over frames if a part of the samples is not finite.
 fn mean_with(part: f64, value: f32, frames: std::ops::Range<usize>) -> Worst {
     let mut worst = Worst::default();
     for (name, settings) in settings() {
@@ -171,7 +171,7 @@ fn repeated() -> Worst {
     for settings in [adaptive(), pairless()].into_iter().chain(constant) {
         let adapts = settings.filter.gradient != Gradient::Off;
         let mut host = Painted::new(SIZE, settings.clone());
-        // Exponential, as that of paths which rarely find a light.
+        // Exponential noise, as from paths that rarely find a light.
         let fixed = |path: &Path| grey(-(1.0 - Path { seed: 3, ..*path }.uniform(0)).ln());
         let errors: Vec<f64> = (0..24).map(|_| relative_mse(&host.frame(&fixed), &truth)).collect();
         for (frame, error) in errors.iter().enumerate().skip(1) {
@@ -181,7 +181,7 @@ fn repeated() -> Worst {
     worst
 }
 
-/// The default filter of a host that hands in no pairs.
+/// Returns the default filter of a host that hands in no pairs.
 fn pairless() -> Settings {
     let filter = FilterSettings { gradient: Gradient::Statistics, ..Default::default() };
     Settings { filter, ..Settings::adaptive() }

@@ -1,4 +1,4 @@
-//! Sizes of the image. Any following any other is in tests/gpu/behaviour/lifecycle.rs.
+//! Sizes of the image. tests/gpu/behaviour/lifecycle.rs tests changes between any two sizes.
 
 use super::furnace::{self, Furnace, ROUNDING};
 use super::painted::{Painted, adaptive, grey};
