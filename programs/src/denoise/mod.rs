@@ -40,7 +40,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Result<(), Box<dyn 
 }
 
 fn denoise(options: &Options) -> Result<(), Box<dyn Error>> {
-    let bar = progress("looking at frames");
+    let bar = progress("checking frames");
     let mut sequence = Sequence::open(options.source.clone(), |frames| {
         bar.set_length(frames.into());
         bar.inc(1);
@@ -75,7 +75,7 @@ fn refuse_to_overwrite(options: &Options, sequence: &Sequence) -> Result<(), Str
     let outputs = (0..sequence.frames()).flat_map(|index| output::paths(options, sequence, index));
     let written = outputs.into_iter().find(|path| path.canonicalize().is_ok_and(|path| frames.contains(&path)));
     match written {
-        Some(path) => Err(format!("--out: would write over the frame {}: let it be another folder", path.display())),
+        Some(path) => Err(format!("--out: would overwrite the frame {}: give another folder", path.display())),
         None => Ok(()),
     }
 }

@@ -16,48 +16,49 @@ Denoises a sequence of images that any path tracer has rendered.
 Usage: cargo run --release --example denoise -- IN --out OUT_DIR [OPTIONS]
 
 IN is a folder of EXR files with a number in their names (frame_0001.exr, shot.1001.exr,
-0001.exr), any one of them, or a pattern as in DIR/shot.####.exr. Each has some of the channels
+0001.exr), any one of them, or a pattern as in DIR/shot.####.exr. Each has some of these
+channels:
   R,G,B                     noisy linear radiance, emission included; the only ones required
   normal.X,Y,Z              world space, unit; zero where nothing was hit
   depth.Z                   linear, along the view axis; 0 or infinite: nothing was hit
   albedo.R,G,B              reflectance, 0…1
-  emission.R,G,B            what the visible surface or the sky emits
+  emission.R,G,B            radiance that the visible surface or the sky emits
   motion.X,Y                previous − current position in pixels, x right, y down
   prev_depth.Z              linear depth that the point had in the last frame's camera
   id.I                      number of the object
   gradient.current.R,G,B    radiance of a surface sample of the last frame, shaded again in
                             this frame with last frame's random numbers, in the pixel where
                             it is now; −1 where there is none; at most one in each 3×3
-  gradient.previous.R,G,B   what it was in the last frame
-  lambda.Y                  or, instead of these two, how much history to drop, 0…1
+  gradient.previous.R,G,B   its radiance in the last frame
+  lambda.Y                  instead of these two: the part of the history to drop, 0…1
 The names of Blender (Noisy Image, Combined, Denoising Albedo, Depth, Vector, …), of Mitsuba
 (sh_normal, depth.T, shape_index, …) and of others (rgba, beauty, N, Z, …) are known too.
-What is absent is left out of the filter, or made from what there is, and told.
+The filter does without the absent ones or derives them from the others, and reports it.
 docs/sequences.md has a recipe for each renderer.
-manifest.json beside the frames says where the cameras are: {\"cameras\": [{\"o\": eye,
+manifest.json beside the frames holds the cameras: {\"cameras\": [{\"o\": eye,
 \"fw\": forward, \"r\": right, \"up\": up, \"th\": tangent of half the horizontal field of
-view}, …]}, and where other shots begin: \"cuts\": [31, …].
+view}, …]}, and the frames that begin other shots: \"cuts\": [31, …].
 
 Input
-  --map LAYER=NAME      where a layer is in the files: the channels NAME.R, NAME.G, NAME.B and
-                        the like, the one channel NAME, or a list, color=ch00,ch01,ch02. LAYER
-                        is color, or what stands before the dot above. After a colon, what the
-                        numbers are: motion=NAME:up or :down (y), depth=NAME:ray (along the
-                        pixel's ray) or :axis    [by NAME, as its renderer means it]
+  --map LAYER=NAME      the channels of a layer in the files: NAME.R, NAME.G, NAME.B and the
+                        like, the one channel NAME, or a list, color=ch00,ch01,ch02. LAYER is
+                        color, or the part before the dot above. After a colon follows the
+                        meaning of the numbers: motion=NAME:up or :down (y), depth=NAME:ray
+                        (along the pixel's ray) or :axis   [the one that NAME implies]
   --layer NAME          view layer to take all channels from
                         [the first with colour, normals and depth; never Composite]
   --frames A-B          numbers of the first and the last frame to denoise           [all]
-  --cut N,…             frames that begin another shot     [what manifest.json says, and
-                        frames in which nothing is where it was]
-  --fov-y DEGREES       vertical field of view, 0.01…179, where neither manifest.json nor the
-                        files' attributes tell of cameras  [derived from the frames: normals
-                        and depth of planes tell, else 45]
+  --cut N,…             frames that begin another shot        [those of manifest.json, and
+                        frames in which no surface is where it was]
+  --fov-y DEGREES       vertical field of view, 0.01…179, if neither manifest.json nor the
+                        files' attributes have cameras       [derived from the normals and
+                        depths of planes in the frames, else 45]
   --in-place            the gradient's paths are those of the pixels themselves, and so no
-                        samples of their own        [what manifest.json says, if anything]
+                        additional samples                         [as in manifest.json]
 
 Denoiser
-  --causal              each frame from itself and earlier ones alone, as in real time, in
-                        half the time            [frames see up to 12 … 64 later ones too]
+  --causal              denoise each frame from itself and earlier ones alone, as in real
+                        time; takes half the time [frames use up to 12 … 64 later ones too]
   --edges KIND          smooth, as whole pixels show them, or sharp, as points do
                         [smooth if depths are those of points all over the pixels, or the
                         file is Blender's; sharp with --causal]
@@ -65,12 +66,13 @@ Denoiser
   --alpha KIND          adaptive, or constant:A with 0…1 as the weight of each new
                         frame (constant alone: 0.2)                         [adaptive]
   --iterations N        spatial filter iterations, 0…8          [default 4+1, classic 5]
-  --outlier-limit X     how many times as bright as its surroundings a sample may be, if
-                        not several around are, 0…10⁶; 0: any    [default 40, classic 0]
+  --outlier-limit X     largest brightness of a sample over that of its surroundings,
+                        unless several samples around are as bright, 0…10⁶; 0: no limit
+                                                                 [default 40, classic 0]
 
 Output
   --out DIR             folder for everything; made if missing
-  --outputs LIST        which images, separated by commas                   [denoised]
+  --outputs LIST        images to write, separated by commas                [denoised]
                         denoised, lambda, history (its length in frames), alpha,
                         gradient, variance, noisy, albedo, normal, depth, motion,
                         motion-error, non-finite, outliers
@@ -86,7 +88,7 @@ Output
   -h, --help            print this
 
 Denoised files keep the frame's windows, alpha and attributes. Other outputs are called
-OUT_DIR/OUTPUT_NUMBER.EXT, as in out/lambda_0031.exr. Every frame is looked at before the first is
+OUT_DIR/OUTPUT_NUMBER.EXT, as in out/lambda_0031.exr. All frames are checked before the first is
 written. A table of times goes to standard output.
 `cargo run --release --example score -- OUT_DIR IN_DIR` compares the result with references.
 Exit status: 0 done, 1 failed, 2 wrong usage.

@@ -26,7 +26,7 @@ pub fn before(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -
     }
     let absent: Vec<&str> = Layer::ALL.into_iter().filter(|&layer| !sequence.has(layer)).map(Layer::name).collect();
     if !absent.is_empty() {
-        out += &format!("left out, as the files do not have it: {}\n", absent.join(", "));
+        out += &format!("left out, because the files lack it: {}\n", absent.join(", "));
     }
     out += &format!("level: {}\n", level(sequence, settings, ahead));
     for (index, broken) in sequence.breaks.iter().enumerate() {
@@ -68,7 +68,7 @@ fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> Str
     } else if follows(sequence) {
         "surfaces followed by the camera"
     } else {
-        "nothing taken to move"
+        "nothing assumed to move"
     };
     let alpha = match settings.filter.gradient {
         Gradient::Pairs => "α by pairs",
@@ -101,18 +101,18 @@ fn reason(broken: Break) -> &'static str {
 fn notes(sequence: &Sequence) -> Vec<String> {
     let mut notes = Vec::new();
     if sequence.blank_depth {
-        notes.push("all depths are 0: they are taken for absent".into());
+        notes.push("all depths are 0: they count as absent".into());
     } else if sequence.depth_sign < 0.0 {
-        notes.push("all depths are below 0: they are taken for those of what lies before the camera".into());
+        notes.push("all depths are below 0: their sign is flipped, so that they lie in front of the camera".into());
     }
     if !sequence.borrowed.is_empty() {
         let frames = sequence.borrowed.join(", ");
-        notes.push(format!("frames {frames} tell nothing of their camera: that of the nearest one that does is taken"));
+        notes.push(format!("frames {frames} have no camera: each takes that of the nearest frame with one"));
     }
     if !sequence.has_surfaces() {
         notes.push(
-            "no depth: what lies behind is told by light alone, and borders between surfaces of one light are blurred; nothing is known \
-             to be sky"
+            "no depth: only light separates near surfaces from far ones, borders between surfaces of one light are blurred, and sky \
+             looks like a surface"
                 .into(),
         );
     } else {
@@ -120,33 +120,33 @@ fn notes(sequence: &Sequence) -> Vec<String> {
             Eye::Given => None,
             Eye::Described => Some("cameras are those that the files' attributes describe"),
             Eye::Fitted => {
-                Some("no cameras in manifest.json: they were derived from normals and depth, but for where they are")
+                Some("no cameras in manifest.json: all but their positions is derived from normals and depth")
             }
             Eye::Turned => Some(
-                "no cameras in manifest.json, and no surface tells the field of view: --fov-y is taken, or 45 degrees, in the \
-                 direction that normals and depth show",
+                "no cameras in manifest.json, and no surface determines the field of view: it is that of --fov-y, or 45 \
+                 degrees, in the direction that normals and depth show",
             ),
             Eye::Assumed => Some(
-                "no cameras in manifest.json: one at the origin is taken, that looks along -Z with +Y up; normals should be in \
-                 its space, and --fov-y right",
+                "no cameras in manifest.json: the assumed one is at the origin and looks along -Z with +Y up; normals should \
+                 be in its space, and --fov-y right",
             ),
         };
         notes.extend(camera.map(Into::into));
     }
     if sequence.normals_of_view.is_some() {
-        notes.push("normals are taken to be in the camera's own space: surfaces are flat that way".into());
+        notes.push("normals are read in the camera's own space, because surfaces are flat there".into());
     }
     if !sequence.has(Layer::Motion) {
         let motion = match sequence.eye {
-            Eye::Given | Eye::Described if sequence.has_surfaces() => "only the camera is taken to move",
-            Eye::Fitted | Eye::Turned if sequence.has_surfaces() => "the camera is taken to turn, and nothing to move",
-            _ => "nothing is taken to move; what does is smeared or noisy",
+            Eye::Given | Eye::Described if sequence.has_surfaces() => "only the camera is assumed to move",
+            Eye::Fitted | Eye::Turned if sequence.has_surfaces() => "the camera is assumed to turn, nothing to move",
+            _ => "nothing is assumed to move; moving surfaces are smeared or noisy",
         };
         notes.push(format!("motion is absent: {motion}"));
     }
     let area = sequence.area.map(|area| match area {
-        Area::Scattered => "pixels are areas: depths are those of points all over them; --edges sharp if not",
-        Area::Blender => "pixels are areas, as Blender's are; --edges sharp if not",
+        Area::Scattered => "pixels are areas: depths are those of points all over them; if not, use --edges sharp",
+        Area::Blender => "pixels are areas, as Blender's are; if not, use --edges sharp",
     });
     notes.extend(area.map(Into::into));
     if sequence.frames() == 1 {
@@ -160,14 +160,14 @@ pub fn after(denoised: &Denoised) -> String {
     let mut out = String::new();
     if let Some(frame) = denoised.repeated {
         out += &format!(
-            "note: frames before {frame} are the same, to the last bit, wherever nothing moves: frames are denoised by themselves \
-             from there on, as long as that is so; let the renderer take another seed in each, and averages over time are possible\n"
+            "note: frames before {frame} are the same, to the last bit, wherever nothing moves: each frame is denoised by itself from \
+             there on, as long as that is so; another seed in each frame would allow averages over time\n"
         );
     }
     if !denoised.cuts.is_empty() {
         let cuts: Vec<String> = denoised.cuts.iter().map(i64::to_string).collect();
         out += &format!(
-            "note: frames {} begin another shot: nothing in them is where it was; they were denoised anew\n",
+            "note: frames {} begin another shot: no surface in them is where it was; their histories begin anew\n",
             cuts.join(", ")
         );
     }

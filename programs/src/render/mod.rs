@@ -99,7 +99,7 @@ fn render(options: &Options) -> Result<(), Box<dyn Error>> {
     say(&format!("{} frames in {}\n", options.frames, options.out.display()));
     if options.compare.is_some() {
         let file = options.out.join("comparison.png");
-        say(&format!("The last frame, compared, in {}; {}\n", file.display(), reference_in_words(options)));
+        say(&format!("Comparison of the last frame in {}; {}\n", file.display(), reference_in_words(options)));
     }
     Ok(())
 }

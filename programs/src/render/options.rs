@@ -27,20 +27,20 @@ Scene
   --cull                leave out the back faces of materials that are not double-sided, as
                         rasterizers do
   --list                print scenes and animations, all meshes and materials of SCENE, and
-                        what of them is not read; render nothing
+                        their unread parts; render nothing
 
 Camera                                 [the file's own, else one that frames the scene]
-  --eye X,Y,Z           where it is, in metres, +Y up
-  --target X,Y,Z        what it looks at                       [with --eye: the centre]
-  --up X,Y,Z            what is up in the picture                              [0,1,0]
+  --eye X,Y,Z           its position, in metres, +Y up
+  --target X,Y,Z        the point in the picture's middle      [with --eye: the centre]
+  --up X,Y,Z            the direction that is up in the picture                [0,1,0]
   --fov-y DEGREES       vertical field of view, 0.01…179
   --jitter              move the samples within the pixels from frame to frame
                         (Halton 2, 3); else they are at the pixels' centres
 
 Frames
   --size WxH            pixels                                               [640x360]
-  --frames N            how many; time advances by 1/30 s each                    [32]
-  --start-frame N       number of the first                                        [0]
+  --frames N            number of frames; time advances by 1/30 s each            [32]
+  --start-frame N       number of the first frame                                  [0]
 
 Path tracer
   --spp N               paths per pixel and frame, 1…65536                         [1]
@@ -52,17 +52,18 @@ Denoiser
   --preset NAME         default, or classic: the formulas as published       [default]
   --alpha KIND          adaptive, or constant:A with 0…1 as the weight of each new
                         frame (constant alone: 0.2)                         [adaptive]
-  --gradient KIND       what makes alpha adaptive: reshade (repeated paths), statistics
+  --gradient KIND       source of the adaptive alpha: reshade (repeated paths), statistics
                         (new samples against their history: no path is repeated),
                         blinn-phong (lights without shadows), off (the same as a
                         constant alpha)                                      [reshade]
   --iterations N        spatial filter iterations, 0…8          [default 4+1, classic 5]
-  --outlier-limit X     how many times as bright as its surroundings a sample may be, if
-                        not several around are, 0…10⁶; 0: any    [default 40, classic 0]
+  --outlier-limit X     largest brightness of a sample over that of its surroundings,
+                        unless several samples around are as bright, 0…10⁶; 0: no limit
+                                                                 [default 40, classic 0]
 
 Output
   --out DIR             folder for everything; made if missing                   [out]
-  --outputs LIST        which images, separated by commas, or all           [denoised]
+  --outputs LIST        images to write, separated by commas, or all        [denoised]
                         denoised, noisy, albedo, normal, depth, triangle-id, motion,
                         gradient, lambda, alpha, history-length, variance, non-finite,
                         rays, motion-error, emission, object, pair-now, pair-before,
@@ -70,16 +71,16 @@ Output
   --format LIST         png (tone-mapped), exr (numbers: linear radiance and the like
                         as 32-bit floats in R, G, B), or both as png,exr         [png]
   --exposure X          factor on radiance in PNG files                            [1]
-  --sequence            also write what the denoiser was fed with, as a sequence that
-                        `denoise` reads: frame_0000.exr … and manifest.json
-  --reference SPP       also trace each frame with so many paths per pixel, unfiltered
+  --sequence            also write the denoiser's input, as a sequence that `denoise`
+                        reads: frame_0000.exr … and manifest.json
+  --reference SPP       also trace each frame with SPP paths per pixel, unfiltered
   --compare[=SPP]       end with comparison.png: noisy, constant alpha, adaptive alpha
                         and reference of the last frame; brightened where it is dark,
                         unless --exposure is given. The reference has SPP paths per
                         pixel [64] and is denoised: 64 paths alone are noisier than the
-                        results. With at least as many for --reference it is that one,
-                        unfiltered
-  --explain             print what was compiled in, which passes ran, on which images
+                        results. If --reference traces at least as many paths, its
+                        image takes this place, unfiltered
+  --explain             print the compiled features, and the passes with their images
 
   -h, --help            print this
 

@@ -87,8 +87,8 @@ pub fn fit(command: &mut Command, gpu: &Gpu) -> Result<Option<String>, Box<dyn E
     let would = pace.seconds(&all, 1.0) / 60.0;
     let [[width, height], [less_width, less_height]] = [full, chosen];
     let dropped = format!(
-        "size: at {width}×{height} all of it would take about {would:.0} minutes once through, so it is \
-         {less_width}×{less_height}"
+        "size: {less_width}×{less_height}, because one run of everything at {width}×{height} would take about \
+         {would:.0} minutes"
     );
     failure.map_or(Ok((chosen != full).then_some(dropped)), Err)
 }

@@ -12,7 +12,7 @@ Measures error against run time, and writes tables, plots and pictures of it.
 
 Usage: cargo run --release --example report -- [OPTIONS]
 
-With `--features flip` (which needs a C++ compiler) FLIP and its maps are in it too.
+With `--features flip` (which needs a C++ compiler) the report has FLIP and its maps too.
 
   --suite NAME          quick: three sequences and a choice of methods, in minutes on a
                         software adapter; full: everything                      [quick]
@@ -24,24 +24,24 @@ With `--features flip` (which needs a C++ compiler) FLIP and its maps are in it 
                                                                      [the suite's methods]
   --size WxH            pixels                          [quick 96x54, full 640x360]
   --paths N             paths per pixel of the references      [quick 256, full 8192]
-  --repeats N           how often times are taken, after once for the errors; with 0, in
-                        that once, from the frames after the first    [quick 3, full 5]
-  --budget MINUTES      measure no longer than about so long: repeats are dropped first,
-                        then the size is halved, then methods are dropped, and the report
-                        says which                                               [none]
+  --repeats N           timed runs after the first run, which has the errors; with 0, the
+                        first run is timed, without its first frames  [quick 3, full 5]
+  --budget MINUTES      approximate limit of the time: repeats are dropped first, then the
+                        size is halved, then methods are dropped, and the report lists
+                        the dropped parts                                        [none]
   --growth              also measure how time and memory grow with pixels and triangles
   --out DIR             folder for everything; made if missing           [target/report]
   --baseline NAME=DIR   also score another denoiser's frames. DIR/SEQUENCE/ holds
                         denoised_0022.exr, …, and may hold times.txt with the
-                        milliseconds of each frame, one a line, to which those of
-                        tracing it are added. May be repeated
+                        milliseconds of each frame, one per line; the report adds
+                        those of tracing it. May be repeated
   --sequences           also write the frames, as `denoise` reads them, and
                         their references: DIR/sequences/SEQUENCE/
   -h, --help            print this
 
 Writes report.md, report.csv, report.json, plots (.svg and .png) and comparisons (.png).
-What was measured is kept in DIR/runs, so that a report that was interrupted goes on where
-it stopped; references are kept in target/references.
+Measurements are kept in DIR/runs, so that an interrupted report continues where it stopped;
+references are kept in target/references.
 Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
 

@@ -31,7 +31,7 @@ pub struct Method {
     pub settings: Settings,
 }
 
-/// Name of the method that all others are compared with: the crate's default.
+/// Name of the method in all comparisons with the others: the crate's default.
 pub const DEFAULT: &str = "a-svgf";
 /// Name of path tracing at one path per pixel.
 pub const ONE_PATH: &str = "1 spp";

@@ -105,7 +105,7 @@ pub fn claims(sequence: &str, summaries: &[Summary]) -> Vec<Claim> {
     }
     if let (Some(worse), Some(adaptive)) = (error(CONTROL), error(DEFAULT)) {
         claim(
-            format!("what is made worse on purpose is shown worse: {:.1} × the error", worse / adaptive),
+            format!("the method that is worse on purpose has {:.1} × the error of {DEFAULT}", worse / adaptive),
             worse > adaptive,
         );
     }

@@ -38,8 +38,8 @@ pub fn report(context: &Context, chapters: &[Chapter]) -> String {
     }
     out += "\nrelMSE is mean (a − b)² / (b² + 0.01), bias is mean (a − b) / mean b, flicker is the change of the error from frame to \
             frame along the motion where nothing changed, and ghost is the relMSE where light or surfaces changed in the last eight \
-            frames: means over the frames, over pixels that are neither emitters nor misses. The references' own noise is \
-            subtracted from relMSE, and two halves of each tell it. PSNR, SSIM and FLIP are of images as \
+            frames: means over the frames, over pixels that are neither emitters nor misses. The references' own noise, \
+            measured from the two halves of each, is subtracted from relMSE. PSNR, SSIM and FLIP compare images as \
             displays show them. Times are medians, with the quartiles.\n";
     out += &across(chapters);
     for chapter in chapters {
@@ -133,7 +133,7 @@ fn lags(summaries: &[Summary]) -> String {
         return String::new();
     }
     let mut out = String::from(
-        "\nFrames after the step until a pixel stays within a part of it of its new level; “–” where so many pixels never did.\n\n",
+        "\nFrames after the step until a pixel stays within a band around its new level, in parts of the step; “–” if too few pixels did.\n\n",
     );
     out += "| method | band | half of the pixels | nine of ten | arrived at all |\n|---|--:|--:|--:|--:|\n";
     for summary in summaries {
@@ -180,7 +180,7 @@ fn verdicts(chapter: &Chapter) -> String {
     }
     let front: Vec<&str> = verdict::pareto(summaries).into_iter().map(|summary| summary.method.as_str()).collect();
     if !front.is_empty() {
-        let _ = writeln!(out, "- Beaten by nothing in both time and error: {}.", front.join(", "));
+        let _ = writeln!(out, "- Pareto front (no method beats these in both time and error): {}.", front.join(", "));
     }
     out += &ablation(summaries);
     for claim in verdict::claims(&chapter.sequence, summaries) {

@@ -11,7 +11,7 @@ pub fn growth(growth: &Growth, plots: &[String]) -> String {
     let scene = "`cornell`, animation `static`, the default's settings";
     let _ = writeln!(
         out,
-        "{scene}; cost goes with the count to the power of the exponent, fitted by least squares of logarithms.\n"
+        "{scene}; cost is proportional to the count to the power of the exponent, fitted by least squares of logarithms.\n"
     );
     out += "| pixels | filter ms | tracing ms | MiB of images | bytes per pixel |\n|---|--:|--:|--:|--:|\n";
     for cost in &growth.sizes {
@@ -37,7 +37,7 @@ pub fn growth(growth: &Growth, plots: &[String]) -> String {
     if let Some([width, height]) = growth.triangles.first().map(|cost| cost.size) {
         let _ = writeln!(
             out,
-            "\nImages of {width}×{height} of one picture: what does not emit is cut into more and more triangles."
+            "\nImages of {width}×{height} of one picture: surfaces that do not emit are cut into more and more triangles."
         );
     }
     for plot in plots {

@@ -15,7 +15,7 @@ Usage: cargo run --release --example score -- OUT_DIR IN [REFERENCES]
 
 OUT_DIR holds denoised_0000.exr, …, as `denoise` or another denoiser wrote them; IN the
 frames, as `denoise` takes them; REFERENCES, or else the folder of the frames, the converged
-image of each, reference_0000.exr, …. Results and references may also be called as the frames are.
+image of each, reference_0000.exr, …. Results and references may also have their frames' names.
 
 Over the pixels that are neither emitters nor misses, and then over the frames:
   relMSE    mean (a − b)² / (b² + 0.01)

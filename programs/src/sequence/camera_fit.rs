@@ -35,13 +35,13 @@ const SLANTED: f64 = 4e-3;
 /// Tangents of half a field of view that a camera may have: 1° to 174°.
 const SLOPES: std::ops::Range<f64> = 0.01..20.0;
 
-/// Vertical field of view, in radians, that the directions are derived with if it is undetermined.
+/// Vertical field of view, in radians, for the derivation of the directions if it is undetermined.
 const ASSUMED_FOV_Y: f64 = std::f64::consts::FRAC_PI_4;
 
 /// Residual that counts as rounding.
 const NOTHING: f64 = 1e-9;
 
-/// Number of slopes that the search for distances along the rays tries.
+/// Number of slopes in the search for that of distances along the rays.
 const TRIED_SLOPES: i32 = 48;
 
 /// The vectors c, a and b, nine numbers.

@@ -197,7 +197,7 @@ impl Places {
     }
 }
 
-/// View layer of Blender's compositor: a composed image that no guides belong to.
+/// View layer of Blender's compositor: a composed image without guides of its own.
 const COMPOSITE: &str = "composite";
 
 /// Finds all layers in a file. All come from one view layer: the requested one, else the first that has colour, normals

@@ -115,7 +115,7 @@ pub struct Sequence {
     pub cameras: Vec<Camera>,
     /// Source of the cameras.
     pub eye: Eye,
-    /// If normals are in the camera's own space: the sign of the Z that the camera looks along.
+    /// If normals are in the camera's own space: the sign of its view direction, along ±Z.
     pub normals_of_view: Option<f64>,
     /// Factor of depths: −1 if all are below 0, as some programs write them.
     pub depth_sign: f32,

@@ -72,7 +72,7 @@ fn words_come_from_the_numbers() {
         "- Equal time: no method that takes as long as a-svgf or less has a smaller error.",
         "- Equal error: path tracing alone would need 40 paths per pixel (extrapolated) and 40.0 ms a frame for the error of a-svgf: 20.0 \
          times as long.",
-        "- Beaten by nothing in both time and error: 1 spp, a-svgf.",
+        "- Pareto front (no method beats these in both time and error): 1 spp, a-svgf.",
         "![p](p.svg)",
     ] {
         assert!(text.contains(part), "{part} is not in\n{text}");
