@@ -40,7 +40,7 @@ macro_rules! listed {
                 Self::ALL.iter().copied().find(|variant| variant.name() == name)
             }
 
-            /// The documentation as rustdoc shows it, in Markdown.
+            /// The documentation in Markdown, as rustdoc shows it.
             pub const fn documentation(self) -> &'static str {
                 match self {
                     $(Self::$variant => concat!($($words, "\n"),+),)+

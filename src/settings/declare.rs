@@ -5,18 +5,18 @@
 /// | key | meaning | given for |
 /// |---|---|---|
 /// | `default` | the value of `Default` | all |
-/// | `classic` | the value of the published method, where it is another | any |
-/// | `range` | the numbers that are accepted | every `f32`; a `u32` without takes all |
+/// | `classic` | the value of the published method, if it differs | any |
+/// | `range` | the accepted numbers | every `f32`; a `u32` without it accepts all |
 /// | `unit` | a word for errors | numbers |
-/// | `most` | a constant of this name for the end of the range | numbers |
-/// | `useful` | the part of the range that is worth a slider, where it is not all | numbers |
+/// | `most` | the name of a constant for the end of the range | numbers |
+/// | `useful` | the part of the range that is worth a slider, if not all of it | numbers |
 /// | `scale` | `logarithmic`, if numbers compare by their ratio | `f32` |
-/// | `compiles` | `Always`, or `Sometimes`, which the documentation explains | any |
+/// | `compiles` | `Always`, or `Sometimes`; the documentation then says when | any |
 ///
 /// in this order. Types other than `f32`, `u32` and `bool` are enums that `listed!` declares.
 ///
-/// From these follow the struct and its rustdoc, `Default`, the values of `Settings::classic`, and `FIELDS`, the list of [`Setting`]s that
-/// `Settings::check` and tools go through.
+/// The macro makes the struct with its rustdoc, `Default`, the values of `Settings::classic`, and `FIELDS`, the list of
+/// [`Setting`]s that `Settings::check` and tools go through.
 ///
 /// [`Setting`]: super::Setting
 macro_rules! settings {

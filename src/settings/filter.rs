@@ -1,21 +1,22 @@
-//! How the noise is filtered.
+//! Settings of the filter.
 
 use super::declare::settings;
 use crate::listed::listed;
 
 settings! {
-    /// How the noise is filtered. The defaults are those of the study in docs/filter.md.
+    /// Settings of the filter. The defaults come from the study in docs/filter.md.
     pub struct FilterSettings in filter {
         /// The source of the temporal gradient.
         gradient: Gradient { default: Gradient::Automatic, classic: Gradient::Reshade, compiles: Always }
 
-        /// Least weight of a new frame: a history is worth (2 − α)/α samples at most. Higher: noisier, but changes that the
-        /// gradient misses are forgotten sooner. Lower: smoother, and slower to forget. With [`Gradient::Off`] this is *the* α of
-        /// the moving average.
+        /// Lower bound on the weight α of a new frame: a history is worth at most (2 − α)/α samples. Higher: noisier, but the filter
+        /// forgets sooner where the gradient misses a change. Lower: smoother, but slower to forget. With [`Gradient::Off`], this is
+        /// the constant α of the moving average.
         alpha: f32 { default: 0.02, classic: 0.2, range: 0..=1, scale: logarithmic }
 
         // Beyond 32768 frames, rounding adds more than averaging takes away.
-        /// Longest history: the weight of a new frame is 1/n until n gets here, and stays so. Higher: smoother still images.
+        /// Longest history: the weight of a new frame is 1/n until the length n reaches this limit, and constant from there on.
+        /// Higher: smoother still images. Lower: noisier, but old light is forgotten sooner.
         max_history: f32 {
             default: 64.0,
             range: 1..=32768,
@@ -25,25 +26,27 @@ settings! {
             scale: logarithmic,
         }
 
-        /// k in n ← n·(1 − λ)ᵏ + 1: how fast a history length falls with the gradient λ. Higher: less lag, more noise after
-        /// a change. 0 never shortens.
+        /// Exponent k in n ← n·(1 − λ)ᵏ + 1, the law by which the gradient λ shortens a history. Higher: less lag, more noise after a
+        /// change. Lower: more lag, less noise. 0 never shortens a history.
         history_power: f32 { default: 3.5, classic: 10.0, range: 0..=64, useful: 0..=16 }
 
-        /// Rescale the history by the ratio that the gradient samples show before blending, and drop only what the ratio does
-        /// not explain: less lag and less noise where light moves or dims. Ignored with [`Gradient::BlinnPhong`], because analytic
-        /// shading is blind to shadows, and where there are no samples ([`Gradient::Lambda`], [`Gradient::Off`]).
+        /// Rescales the history before blending, by the ratio that the gradient samples show, and drops only the change that this
+        /// ratio leaves unexplained. On: less lag and less noise where light moves or dims. Has no effect with
+        /// [`Gradient::BlinnPhong`], because analytic shading is blind to shadows, nor with [`Gradient::Lambda`] and
+        /// [`Gradient::Off`], because they have no samples.
         history_ratio: bool { default: true, classic: false, compiles: Always }
 
-        /// Iterations that spread that ratio over the strata. More: a steadier ratio, farther from where the light changed. With 0
-        /// each stratum goes by its own path. Changing it from 0 compiles.
+        /// Iterations that spread the history ratio over the strata. More: a steadier ratio, spread farther from the place where the
+        /// light changed. Fewer: a noisier ratio; with 0, each stratum uses the ratio of its own path. Changing it from 0 compiles.
         ratio_iterations: u32 { default: 3, range: 0..=7, most: MOST_RATIO_ITERATIONS, compiles: Sometimes }
 
-        /// γ in λ = A\[Δ^(γ−1)·|δ|\] / A\[Δ^γ\]. Higher: a dim change beside a bright steady light is overlooked. Lower: a
-        /// change that few samples see counts as much as one that all see.
+        /// Exponent γ in λ = A\[Δ^(γ−1)·|δ|\] / A\[Δ^γ\]. Higher: a bright steady light hides a dim change beside it. Lower: a change
+        /// that few samples see counts as much as one that all see.
         gradient_gamma: f32 { default: 0.5, classic: 0.0, range: 0..=1 }
 
-        /// Iterations that spread the gradient over the strata; each doubles the reach (3, 9, 21 pixels …). More: steadier,
-        /// and more history is dropped around a change. Changing it from 0 compiles.
+        /// Iterations that spread the gradient over the strata; each doubles the reach (3, 9, 21 pixels …). More: a steadier gradient,
+        /// but more history is dropped around a change. Fewer: a noisier gradient, which stays where the change is. Changing it from 0
+        /// compiles.
         gradient_iterations: u32 {
             default: 2,
             classic: 3,
@@ -52,23 +55,24 @@ settings! {
             compiles: Sometimes,
         }
 
-        /// λ is at least what the paths around saw together on any surface. Off: thin things and corners keep ghosts of changes that
-        /// their own few paths missed. On: near a change, a little more history is dropped.
+        /// Raises λ to at least the change that nearby paths saw together, on whatever surface. Off: thin objects and corners keep
+        /// ghosts of changes that their own few paths missed. On: near a change, a little more history is dropped.
         gradient_across_surfaces: bool { default: true, classic: false, compiles: Always }
 
-        /// Let differences of opposite sign cancel in λ = max(0, |A\[Δ^(γ−1)·δ\]| / A\[Δ^γ\] − dead zone): for hosts whose pairs do
-        /// not repeat their random numbers, so that each difference is mostly noise. Take 5 `gradient_iterations` and a
-        /// `gradient_dead_zone` of 0.1 with it. A shadow that moves cancels too: repeat the numbers where you can.
+        /// Lets differences of opposite sign cancel in λ = max(0, |A\[Δ^(γ−1)·δ\]| / A\[Δ^γ\] − dead zone). Meant for hosts whose pairs
+        /// do not repeat their random numbers, because each difference is then mostly noise. Combine it with 5 `gradient_iterations`
+        /// and a `gradient_dead_zone` of 0.1. On: the differences of a moving shadow cancel too, so repeat the numbers where you can.
         gradient_signed: bool { default: false, compiles: Always }
 
-        /// This much is subtracted from λ. Higher: noise in the gradient costs no history, and small changes of light lag.
+        /// Amount that is subtracted from λ. Higher: noise in the gradient costs no history, but small changes of light lag. Lower:
+        /// small changes are followed, but noise shortens the history.
         gradient_dead_zone: f32 { default: 0.0, range: 0..=1 }
 
-        /// How λ enters the weight of the new frame.
+        /// Formula by which λ enters the weight of a new frame.
         blend: Blend { default: Blend::HistoryLength, classic: Blend::Lambda, compiles: Always }
 
-        /// Feed the colour of the first spatial iteration back into history, as SVGF does: smoother at first, blurred for
-        /// good.
+        /// Feeds the colour of the first spatial iteration back into the history, as SVGF does. On: smoother at first, but the blur
+        /// stays for good. Off: the history stays sharp, and is noisier at first.
         feedback: bool { default: false, classic: true, compiles: Always }
 
         /// The variance that steers the luminance stop.
@@ -80,53 +84,57 @@ settings! {
         /// Taps of a spatial iteration.
         kernel: Kernel { default: Kernel::Diamond, classic: Kernel::Full, compiles: Always }
 
-        /// Fit a plane to the taps instead of averaging them: sharper borders and penumbrae for 5 % more time.
+        /// Fits a plane to the taps instead of averaging them. On: sharper borders and penumbrae for 5 % more time.
         local_linear_fit: bool { default: true, classic: false, compiles: Always }
 
-        /// Ridge on the slopes of that plane. Higher: closer to the mean. Lower: follows noise.
+        /// Ridge on the slopes of the fitted plane. Higher: closer to the mean, so edges blur. Lower: the plane follows noise.
         ridge: f32 { default: 0.25, range: 1e-6..=1e6, useful: 1e-3..=100.0, scale: logarithmic }
 
-        /// How far the ridge follows the noise of the slope: a factor on its variance over its square, within ½…8 times `ridge`.
-        /// Higher: smoother where there is noise, blurrier penumbrae. Lower: the plane follows noise. 0: the ridge is constant.
-        /// Changing it from or to 0 compiles.
+        /// Strength with which the ridge follows the noise of the slope: a factor on its variance over its square, within ½…8 times
+        /// `ridge`. Higher: smoother where there is noise, but blurrier penumbrae. Lower: the plane follows noise. 0: the ridge is
+        /// constant. Changing it from or to 0 compiles.
         ridge_noise: f32 { default: 1.5, classic: 0.0, range: 0..=1e6, useful: 0..=16, compiles: Sometimes }
 
-        /// Spatial iterations, with steps of 1, 2, 4 … pixels. More: smoother, costlier, blurrier. Changing it from 0 or 1, or to 0,
-        /// compiles.
+        /// Spatial iterations, with steps of 1, 2, 4 … pixels. More: smoother, but slower and blurrier. Fewer: faster and sharper, but
+        /// noisier. Changing it from 0 or 1, or to 0, compiles.
         iterations: u32 { default: 4, classic: 5, range: 0..=8, most: MOST_SPATIAL_ITERATIONS, compiles: Sometimes }
 
-        /// One more iteration over the nine nearest taps: less error and less flicker, for a seventh of the spatial filter's time.
+        /// Adds an iteration over the nine nearest taps. On: less error and less flicker, for a seventh of the spatial filter's time.
         final_iteration: bool { default: true, classic: false, compiles: Always }
 
-        /// The most that the last output weighs in this one, where the surface is the same, its light has not changed, and the image
-        /// rests on its pixels. Higher: less flicker, and more lag where a change is missed. 0: none, which saves a pass and
-        /// 16 bytes per pixel. Changing it from or to 0 compiles; from 0, it starts a new history, as does raising `iterations` from 0.
+        /// Highest weight of the last output in this one. It applies where the surface is the same, its light has not changed, and the
+        /// image rests on its pixels. Higher: less flicker, but more lag where a change is missed. Lower: more flicker, less lag. 0 turns
+        /// it off, which saves a pass and 16 bytes per pixel. Changing it from or to 0 compiles. Changing it from 0 also starts a new
+        /// history, and so does raising `iterations` from 0.
         steadiness: f32 { default: 0.9, classic: 0.0, range: 0..=1, compiles: Sometimes }
 
-        /// How many times as bright as its surroundings a sample may be, where not several around are as bright: brighter ones are
-        /// taken for outliers and have no weight. Higher: more of the light that one path in ten thousand finds is kept, and more of
-        /// what a renderer's fireflies leave. Lower: the reverse; below 20, common noise loses energy. 0: everything is believed,
-        /// which saves three passes over strata. Changing it from or to 0 compiles; from 0, it starts a new history.
+        /// Highest brightness of a sample, as a multiple of its surroundings, unless several samples around it are as bright. Brighter
+        /// samples are outliers and get no weight. Higher: more of the light that one path in ten thousand finds is kept, but more of a
+        /// renderer's fireflies stay. Lower: fewer fireflies, but less of that light; below 20, common noise loses energy. 0 keeps
+        /// every sample, which saves three passes over strata. Changing it from or to 0 compiles. Changing it from 0 also starts a new
+        /// history.
         outlier_limit: f32 { default: 40.0, classic: 0.0, range: 0..=1e6, useful: 0..=1e3, compiles: Sometimes }
 
-        /// Pixels whose noise (deviation over luminance) is below this are left as they are, in whatever iteration they get there.
-        /// Higher: less time where there is little noise, and more of it stays. Lower: the filter blurs what no longer needs it.
-        /// 0: never.
+        /// Noise (standard deviation over luminance) below which the spatial filter leaves a pixel alone, from the iteration on in which
+        /// the pixel gets there. Higher: less time where there is little noise, but more of it stays. Lower: the filter blurs pixels that
+        /// no longer need it. 0 filters every pixel.
         converged: f32 { default: 0.03, classic: 0.0, range: 0..=1 }
 
-        /// Luminance stop in standard deviations of the noise. Higher: smoother, edges of shadows blur. 0 mixes only equals.
+        /// Luminance stop in standard deviations of the noise. Higher: smoother, but edges of shadows blur. Lower: edges of shadows stay
+        /// sharp, and noise stays too. 0 mixes only pixels of equal luminance.
         sigma_luminance: f32 { default: 4.0, range: 0..=1e6, useful: 0..=32 }
 
-        /// Depth stop. Default stops: tolerated distance from the tangent plane, in parts of the depth. Classic: in depth
-        /// gradients. Higher: leaks across edges. Lower: noise stays on curved surfaces.
+        /// Depth stop. With the default stops: tolerated distance from the tangent plane, as a fraction of the depth. With the classic
+        /// stops: in depth gradients. Higher: light leaks across edges. Lower: noise stays on curved surfaces.
         sigma_depth: f32 { default: 0.0025, classic: 1.0, range: 1e-6..=1e6, useful: 1e-4..=10.0, scale: logarithmic }
 
-        /// Normal stop: the exponent. Higher: sharper normal edges, noise stays on curved surfaces.
+        /// Exponent of the normal stop. Higher: sharper normal edges, but noise stays on curved surfaces. Lower: smoother curved
+        /// surfaces, but normal edges blur.
         sigma_normal: f32 { default: 32.0, classic: 128.0, range: 0..=1e6, useful: 0..=256 }
 
-        /// Foreshortening stop of the default stops: by how much taps weigh less that are farther away on the surface than on the
-        /// image. Higher: sharper shadows on surfaces at a grazing angle, and more noise there. 0: taps weigh by their distance on
-        /// the image alone.
+        /// Foreshortening stop of the default stops: reduces the weight of taps that are farther away on the surface than in the image.
+        /// Higher: sharper shadows on surfaces at a grazing angle, but more noise there. Lower: smoother, but such shadows blur. 0 weighs
+        /// taps by their distance in the image alone.
         sigma_foreshortening: f32 { default: 0.25, classic: 0.0, range: 0..=1e6, useful: 0..=8 }
     }
 }
@@ -143,37 +151,37 @@ listed! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Gradient {
-        /// [`Gradient::Reshade`] where the denoiser traces the paths. In a host's frame: [`Gradient::Lambda`] if it has λ, else
-        /// [`Gradient::Pairs`] if it has pairs, else [`Gradient::Statistics`].
+        /// The best source that is at hand. Where the denoiser traces the paths: [`Gradient::Reshade`]. In a host's frame:
+        /// [`Gradient::Lambda`] if it has λ, else [`Gradient::Pairs`] if it has pairs, else [`Gradient::Statistics`].
         Automatic = "automatic",
-        /// One pixel of each 3×3 repeats a path of the last frame, random numbers included, in this frame's scene (Schied et al.
-        /// 2018): sees every change of light, shadow and geometry. Costs no extra ray. Where the host renders,
-        /// [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) says which pixels and paths.
+        /// Repeated paths: one pixel of each 3×3 repeats a path of the last frame, random numbers included, in this frame's scene
+        /// (Schied et al. 2018). Sees every change of light, shadow and geometry, and costs no extra ray. Where the host renders,
+        /// [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) says which pixels and paths to repeat.
         Reshade = "reshade",
-        /// The mean of the new samples against that of their histories, over 21 to 93 pixels of a surface around, less the noise of both:
-        /// needs nothing but the image and its G-buffer. Sees every change that is greater than the noise of a thousand samples, a few
-        /// frames later than repeated paths do where light moves.
+        /// The mean of the new samples against that of their histories, over 21 to 93 nearby pixels of a surface, less the noise of
+        /// both. Needs nothing but the image and its G-buffer. Sees every change that exceeds the noise of a thousand samples, but where
+        /// light moves, a few frames later than repeated paths do.
         Statistics = "statistics",
-        /// Deferred Blinn–Phong shading of this and the last frame's lights, without shadows: no ray, no noise, blind to what
-        /// blocks the light. Only for the crate's own path tracer, because it needs the scene.
+        /// Deferred Blinn–Phong shading of the lights of this and the last frame, without shadows: no ray and no noise, but blind to
+        /// everything that blocks the light. Only for the crate's own path tracer, because it needs the scene.
         BlinnPhong = "blinn-phong",
-        /// Pairs that the host made, see [`Pairs`](crate::Pairs). Only for frames of a host's renderer.
+        /// Pairs of radiance from the host, see [`Pairs`](crate::Pairs). Only for frames of a host's renderer.
         Pairs = "pairs",
         /// λ itself, or a confidence, from the host, see [`Lambda`](crate::Lambda). Only for frames of a host's renderer.
         Lambda = "lambda",
-        /// None: α is constant.
+        /// No gradient: α is constant.
         Off = "off",
     }
 }
 
 impl Gradient {
-    /// What it is where the denoiser traces the paths.
+    /// Resolves `Automatic` for frames whose paths the denoiser traces.
     #[cfg(feature = "path-tracer")]
     pub(crate) fn traced(self) -> Self {
         if self == Self::Automatic { Self::Reshade } else { self }
     }
 
-    /// What it is in a host's frame with or without λ and pairs.
+    /// Resolves `Automatic` for a host's frame with or without λ and pairs.
     pub(crate) fn hosted(self, lambda: bool, pairs: bool) -> Self {
         match self {
             Self::Automatic if lambda => Self::Lambda,
@@ -185,13 +193,13 @@ impl Gradient {
 }
 
 listed! {
-    /// How λ enters the weight α' of the new frame.
+    /// Formula by which λ enters the weight α' of a new frame.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Blend {
         /// α' = 1/n with the shortened history length n.
         HistoryLength = "history-length",
-        /// α' = (1 − λ)·α + λ as published, and at least 1/n.
+        /// α' = (1 − λ)·α + λ as published, but at least 1/n.
         Lambda = "lambda",
     }
 }
@@ -201,9 +209,9 @@ listed! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Variance {
-        /// That of the accumulated mean: (m₂ − m₁²)/n.
+        /// Variance of the accumulated mean: (m₂ − m₁²)/n.
         OfMean = "of-mean",
-        /// That of one sample: m₂ − m₁².
+        /// Variance of one sample: m₂ − m₁².
         OfSample = "of-sample",
     }
 }
@@ -213,7 +221,7 @@ listed! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Stops {
-        /// Distance from the tangent plane, exp(−σ·(1 − n·n')), foreshortening, and squared luminance difference less the noise of
+        /// Distance from the tangent plane, exp(−σ·(1 − n·n')), foreshortening, and the squared luminance difference less the noise of
         /// both ends.
         NoiseSubtracted = "noise-subtracted",
         /// exp(−|Δz|/(σ·|∇z·Δp|)), max(0, n·n')^σ, exp(−|Δl|/(σ·√Var)).
@@ -226,9 +234,9 @@ listed! {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     #[non_exhaustive]
     pub enum Kernel {
-        /// The 13 taps of the B₃ spline's 5×5 with |x| + |y| ≤ 2: as good, at half the price.
+        /// The 13 taps of the B₃ spline's 5×5 with |x| + |y| ≤ 2: as good as all 25, at half the price.
         Diamond = "diamond",
-        /// All 25.
+        /// All 25 taps.
         Full = "full",
     }
 }

@@ -1,6 +1,7 @@
-//! What can be set, with what a higher and a lower value cost.
+//! Settings: each documents the costs of a higher and of a lower value.
 //!
-//! A setting is one block in `filter.rs` or `tracer.rs`. Its range, presets, documentation and place in lists follow from it.
+//! A setting is one block in `filter.rs` or `tracer.rs`. Its range, its presets, its documentation and its place in lists
+//! follow from that block.
 
 mod declare;
 mod filter;
@@ -18,7 +19,7 @@ pub use tracer::{Sampling, TracerSettings};
 
 use crate::Error;
 
-/// The most iterations that any filter with steps of 1, 2, 4 … can be set to.
+/// The highest number of iterations that any filter with steps of 1, 2, 4 … can be set to.
 pub(crate) const MOST_ITERATIONS: u32 = {
     let [mut most, gradient, ratio] =
         [filter::MOST_SPATIAL_ITERATIONS, filter::MOST_GRADIENT_ITERATIONS, filter::MOST_RATIO_ITERATIONS];
@@ -36,14 +37,14 @@ trait Published {
     fn published() -> Self;
 }
 
-/// Everything that can be set. All of it may change between two frames; what changes the compiled shaders says so.
+/// All settings. Each may change between two frames; a setting says so if its change compiles shaders.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// What the target shows. Changing it compiles.
+    /// The image that the target receives. Changing it compiles.
     pub mode: Mode,
-    /// How the noise is filtered.
+    /// Settings of the filter.
     pub filter: FilterSettings,
-    /// How paths are traced.
+    /// Settings of the path tracer.
     #[cfg(feature = "path-tracer")]
     pub tracer: TracerSettings,
 }
@@ -71,13 +72,13 @@ impl Settings {
         Self { filter: FilterSettings::classic(), ..Self::adaptive() }
     }
 
-    /// The same filter with a constant α: no temporal gradient, a history that fades as `(1 − α)ⁿ` whatever happens. An α below
-    /// 1/32768 acts as that: no history is longer. With 0, the history is as long as [`FilterSettings::max_history`] allows.
+    /// The same filter with a constant α: no temporal gradient, and a history that fades as `(1 − α)ⁿ` whatever happens. An α below
+    /// 1/32768 acts as 1/32768, because no history is longer. With 0, the history is as long as [`FilterSettings::max_history`] allows.
     pub fn constant(self, alpha: f32) -> Self {
-        // As many samples as such an average is worth, (2 − α)/α.
+        // Such an average is worth (2 − α)/α samples.
         let worth = if alpha > 0.0 { (2.0 / alpha - 1.0).min(LONGEST_HISTORY) } else { 0.0 };
         let max_history = self.filter.max_history.max(worth);
-        // Nobody says where the light has changed: the last output would stay there, too.
+        // Without a gradient nothing shows where the light has changed, and the last output would stay there: no steadiness.
         let filter = FilterSettings { gradient: Gradient::Off, alpha, max_history, steadiness: 0.0, ..self.filter };
         Self { filter, ..self }
     }
@@ -85,22 +86,22 @@ impl Settings {
     /// Checks every setting's range.
     ///
     /// # Errors
-    /// [`Error::Setting`] for the first that is outside.
+    /// [`Error::Setting`] for the first setting that is outside its range.
     pub fn check(&self) -> Result<(), Error> {
         Setting::all().try_for_each(|setting| setting.check(self))
     }
 }
 
-/// What the target shows.
+/// The image that the target receives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Mode {
     /// The filtered image.
     #[default]
     Denoise,
-    /// The path tracer's samples as they are.
+    /// The path tracer's samples, unfiltered.
     Noisy,
-    /// The mean of all frames since the last restart or change of scene, camera or `TracerSettings`, in f32: converges to the
-    /// truth. Samples that are missing do not count.
+    /// The mean of all frames since the last restart or change of scene, camera or `TracerSettings`, in f32. It converges to the
+    /// truth. Missing samples do not count.
     Reference,
 }

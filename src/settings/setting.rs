@@ -19,17 +19,17 @@ use std::ops::RangeInclusive;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Setting {
-    /// Its place in [`Settings`]: `filter.alpha`.
+    /// The place in [`Settings`]: `filter.alpha`.
     pub name: &'static str,
     /// The field's documentation, in Markdown.
     pub documentation: &'static str,
-    /// The values that it can have.
+    /// The accepted values, with the field that holds one.
     pub kind: SettingKind,
     /// The changes after which shaders have to be compiled.
     pub compiles: Compiles,
 }
 
-/// The values that a [`Setting`] can have, and where its own is.
+/// The values that a [`Setting`] accepts, with the field that holds its own.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum SettingKind {
@@ -37,29 +37,29 @@ pub enum SettingKind {
     Number {
         /// The numbers that are accepted.
         range: RangeInclusive<f32>,
-        /// The same in words, with the unit: `1…32768 frames`.
+        /// The range in words, with the unit, as in errors.
         accepted: &'static str,
         /// The part of the range that is worth a slider.
         useful: RangeInclusive<f32>,
-        /// True if numbers compare by their ratio: sliders are then best logarithmic.
+        /// True if numbers compare by their ratio, so that a slider should be logarithmic.
         logarithmic: bool,
-        /// The field.
+        /// The field that holds the value.
         field: Field<f32>,
     },
     /// A whole number.
     Whole {
         /// The numbers that are accepted.
         range: RangeInclusive<u32>,
-        /// The same in words, with the unit: `0…1024 bounces`.
+        /// The range in words, with the unit, as in errors.
         accepted: &'static str,
         /// The part of the range that is worth a slider.
         useful: RangeInclusive<u32>,
-        /// The field.
+        /// The field that holds the value.
         field: Field<u32>,
     },
     /// On or off.
     Switch {
-        /// The field.
+        /// The field that holds the value.
         field: Field<bool>,
     },
     /// One of several variants.
@@ -68,7 +68,7 @@ pub enum SettingKind {
         choices: fn() -> Vec<Choice>,
         /// Returns the name of the field's variant.
         get: fn(&Settings) -> &'static str,
-        /// Sets the field to the variant of a name. Returns false if there is none.
+        /// Sets the field to the variant of that name. Returns false if there is none.
         set: fn(&mut Settings, &str) -> bool,
     },
 }
@@ -77,9 +77,9 @@ pub enum SettingKind {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Field<T> {
-    /// To read it.
+    /// Reads the field.
     pub get: fn(&Settings) -> &T,
-    /// To write it.
+    /// Writes the field.
     pub get_mut: fn(&mut Settings) -> &mut T,
 }
 
@@ -87,9 +87,9 @@ pub struct Field<T> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Choice {
-    /// Its name: `blinn-phong`.
+    /// The name of the variant: `blinn-phong`.
     pub name: &'static str,
-    /// Its documentation, in Markdown.
+    /// The documentation of the variant, in Markdown.
     pub documentation: &'static str,
 }
 
@@ -97,11 +97,11 @@ pub struct Choice {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Compiles {
-    /// None.
+    /// No change.
     Never,
-    /// Those that the documentation names.
+    /// The changes that the documentation names.
     Sometimes,
-    /// All.
+    /// Every change.
     Always,
 }
 
@@ -128,7 +128,7 @@ impl Setting {
     /// Checks the range.
     ///
     /// # Errors
-    /// [`Error::Setting`] if the value is outside, or no number.
+    /// [`Error::Setting`] if the value is outside its range or is not a number.
     pub fn check(&self, settings: &Settings) -> Result<(), Error> {
         let (within, value, accepted) = match &self.kind {
             SettingKind::Number { range, accepted, field, .. } => {

@@ -1,4 +1,4 @@
-//! The promises of the settings' own words.
+//! The promises of the settings' documentation.
 
 use super::*;
 use crate::plan::{Changes, Features, HostInputs, Plan};
@@ -10,7 +10,7 @@ fn a_constant_alpha_may_be_anything_from_0_to_1() {
     for alpha in [0.0, 1e-30, 1e-6, 1.0 / 32768.0, 0.05, 0.5, 1.0] {
         let settings = Settings::adaptive().constant(alpha);
         settings.check().unwrap_or_else(|e| panic!("{alpha}: {e}"));
-        // Long enough for what such an average is worth, (2 − α)/α, as far as a history goes.
+        // The history must be as long as such an average is worth, (2 − α)/α samples, up to the longest history.
         let worth = (2.0 / alpha - 1.0).min(LONGEST_HISTORY);
         assert!(alpha == 0.0 || settings.filter.max_history >= worth, "{alpha}");
     }
@@ -129,7 +129,7 @@ fn settings_say_whether_a_change_compiles() {
         Settings { tracer, ..Settings::adaptive() }
     }));
     for setting in Setting::all() {
-        // For each pair of values, whether any frame of any base compiles something.
+        // Compare each pair of values: does any frame of any base compile something?
         let shaders: Vec<Vec<_>> =
             bases.iter().map(|base| varied(base, setting).iter().map(shaders).collect()).collect();
         let values = 0..shaders[0].len();

@@ -1,31 +1,32 @@
-//! How paths are traced.
+//! Settings of the path tracer.
 
 use super::declare::settings;
 use crate::listed::listed;
 
 settings! {
-    /// How paths are traced. Paths of other settings are not those of the last frame: with re-shading, a change drops what history it
-    /// contradicts.
+    /// Settings of the path tracer. A change of settings makes this frame's paths differ from those of the last frame: with
+    /// re-shading, the filter then drops the history that they contradict.
     #[derive(Eq)]
     pub struct TracerSettings in tracer {
-        /// Paths per pixel and frame. Higher: less noise, proportionally slower. Many are traced in several dispatches, because one
-        /// might be taken for hung; going from one dispatch to several compiles. Systems that time submissions instead of dispatches
-        /// need a host that submits in between: [`Denoiser::render_stepwise`](crate::Denoiser::render_stepwise).
+        /// Paths per pixel and frame. Higher: less noise, proportionally slower. Lower: faster, noisier. The driver might take one long
+        /// dispatch for hung, so many paths are traced in several dispatches; going from one dispatch to several compiles. Systems that
+        /// time submissions instead of dispatches need a host that submits in between:
+        /// [`Denoiser::render_stepwise`](crate::Denoiser::render_stepwise).
         samples: u32 { default: 1, range: 1..=65536, unit: "samples per pixel", useful: 1..=16, compiles: Sometimes }
 
-        /// Reflections after the first surface; 0 is direct light only. Higher: brighter corners, slower. A path is never divided among
-        /// dispatches: some hundred bounces without roulette may be ended by the driver, and are then missing. Longer paths need
-        /// several dispatches sooner, and going from one to several compiles.
+        /// Reflections after the first surface; 0 is direct light only. Higher: brighter corners, slower. Lower: faster, darker corners.
+        /// A path is never divided among dispatches: the driver may end a path of some hundred bounces without roulette, and its light is
+        /// then missing. Longer paths need several dispatches sooner; going from one dispatch to several compiles.
         bounces: u32 { default: 3, range: 0..=1024, unit: "bounces", useful: 0..=16, compiles: Sometimes }
 
-        /// Bounce from which Russian roulette may end a path. Higher: less noise, slower, and several dispatches sooner: going
-        /// from one to several compiles.
+        /// First bounce at which Russian roulette may end a path. Higher: less noise, but slower. Lower: faster, noisier. A higher value
+        /// needs several dispatches sooner; going from one dispatch to several compiles.
         roulette: u32 { default: 3, useful: 0..=16, compiles: Sometimes }
 
         /// The estimator of direct light.
         sampling: Sampling { default: Sampling::Both, compiles: Always }
 
-        /// Another number gives other noise.
+        /// Seed of the random numbers. Another number gives other noise, no more and no less.
         seed: u32 { default: 0 }
     }
 }
