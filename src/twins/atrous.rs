@@ -9,8 +9,8 @@ use crate::passes::{Nth, Step, atrous};
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings, Stops};
 
-/// A pixel by the documented formulas: colour, standard deviation, and the plain mean; the pixel's own if it has converged.
-/// `image` has colour and deviation in the first half of its texels, normal and depth in the second.
+/// Filters a pixel by the documented formulas: colour, standard deviation, and the plain mean; the pixel's own values if it has
+/// converged. `image` has colour and deviation in the first half of its texels, normal and depth in the second.
 pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i32, y: i32) -> (V, f64, V) {
     let f = &bench.settings.filter;
     let stride = 1 << iteration;
@@ -22,7 +22,7 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
     let existing = |x: i32, y: i32| bench.at(x, y).filter(|&i| depth(guide(i)) > 0.0);
     let mut variance = deviation * deviation;
     if features.has(Feature::FirstIteration) {
-        // (1 2 1)² over the neighbours that exist.
+        // The variance is smoothed by (1 2 1)² over the neighbours that exist.
         let (mut sum, mut weights) = (0.0, 0.0);
         for (dx, dy) in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))) {
             if let Some(i) = existing(x + dx, y + dy) {
@@ -85,9 +85,9 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
     (color, spread, mean)
 }
 
-/// Foreshortening: length of a step over the image on the tangent plane through a pixel, over that on a plane that faces the
-/// camera, both a unit away. Rays are affine in the pixel and meet the plane at their own depths, so the limit of their
-/// difference is the derivative of ray/(n·ray).
+/// Foreshortening: the length of a step on the tangent plane through a pixel, divided by its length on a plane that faces the
+/// camera, both a unit away. Rays are affine in the pixel and meet the plane at different depths, so the limit of their difference
+/// is the derivative of ray/(n·ray).
 fn foreshortening(bench: &Bench, [x, y]: [i32; 2], [dx, dy]: [i32; 2], normal: V) -> f64 {
     let ray = bench.ray(x, y);
     let step = sub(bench.ray(x + dx, y + dy), ray);
@@ -141,7 +141,7 @@ fn check_step(settings: &Settings, step: &Step) {
             .into_iter()
             .map(|g| match g {
                 [_, 0] => [0; 4],
-                // Deviations from 0 to far beyond the colour.
+                // Deviations go from 0 to far beyond the colour.
                 _ => {
                     let [a, b] = pack_tap(radiance(&mut random), random.unit().powi(4) * 3.0);
                     [a, b, g[0], g[1]]
@@ -161,8 +161,8 @@ fn check_step(settings: &Settings, step: &Step) {
             let (color, deviation, mean) = twin(&bench, step.features, iteration, &image, x, y);
             let (found, spread) = unpack_tap(out);
             for channel in 0..3 {
-                // Results are stored to 2⁻¹². Exponents reach some ten; their distances are differences of numbers a hundred
-                // times as large, so f32 knows them to 1e-5. The plane's slopes add some of the mean's own error.
+                // Results are stored to 2⁻¹². Exponents reach some ten; their distances are differences of numbers a hundred times as
+                // large, so f32 has them to 1e-5. The slopes of the plane add some of the mean's own error.
                 let tolerance = 1.5e-3 * mean[channel] + 1e-9;
                 assert_close(found[channel], color[channel], tolerance, || format!("{}: colour", what()));
             }

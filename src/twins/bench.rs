@@ -1,4 +1,4 @@
-//! Runs one pass on images that a test makes up.
+//! Runs one pass on images that a test invents.
 
 use super::gpu::gpu;
 use crate::gpu::compose::{Permutation, Shaders};
@@ -12,10 +12,10 @@ use std::sync::{Mutex, OnceLock};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 use wgpu::{BindingResource, Buffer, BufferUsages, Extent3d, Texture, TextureFormat, TextureUsages};
 
-/// A texel as its words. Words that its format does not have are ignored.
+/// A texel as four words. Words that its format lacks are ignored.
 pub(super) type Texel = [u32; 4];
 
-/// Sizes: a single pixel, and rows and columns that fill no workgroup or stratum.
+/// Sizes: a single pixel, and images whose rows and columns are no multiple of a workgroup or stratum.
 pub(super) const SIZES: [[u32; 2]; 3] = [[1, 1], [7, 5], [33, 17]];
 
 /// The frame that a pass runs in.
@@ -37,8 +37,8 @@ impl Bench {
         Self { size, camera, previous: camera, index: 5, continued: true, settings, lambda_block: 1 }
     }
 
-    /// Runs a step on the images of its bindings; an image that is not given is zero. Returns the images that the step wrote.
-    /// They are the same for textures and for storage.
+    /// Runs a step on the images of its bindings; an image that is not given is zero. Returns the images that the step wrote, and
+    /// checks that they are the same with textures and with storage.
     pub fn run(&self, step: &Step, inputs: &[(&str, Vec<Texel>)]) -> BTreeMap<&'static str, Vec<Texel>> {
         let outputs = self.run_once(step, inputs);
         let other = step.clone().on_cpu();
@@ -98,7 +98,7 @@ impl Bench {
             Slot::Now(image) | Slot::Before(image) => (image.format(), image.grid().extent(self.size)),
             Slot::Target if has(Feature::TargetF16) => (TextureFormat::Rgba16Float, self.size),
             Slot::Target => (TextureFormat::Rgba32Float, self.size),
-            // The widest format that a host may hand in.
+            // The host's views have the widest format that a host may hand in.
             Slot::Host(view) => match view {
                 HostView::Depth | HostView::PreviousDepth => (TextureFormat::R32Float, self.size),
                 HostView::Lambda => (TextureFormat::R32Float, self.size.map(|s| s.div_ceil(self.lambda_block))),

@@ -1,4 +1,4 @@
-//! Every shader as text, as wgpu hands it to a browser, for a second compiler: see examples/demo/web/check.mjs.
+//! Every shader as the text that wgpu hands to a browser, for a second compiler: see examples/demo/web/check.mjs.
 
 use super::permutations::{steps, traversals};
 use crate::gpu::compose::{Permutation, Shaders};

@@ -8,7 +8,7 @@ pub(super) fn luminance(c: V) -> f64 {
     dot(c, [0.2126, 0.7152, 0.0722])
 }
 
-/// Packs a colour: a common exponent of 8 bits and three mantissas of 18.
+/// Packs a colour with a common exponent of 8 bits and three mantissas of 18.
 pub(super) fn pack_rgb(c: V) -> [u32; 2] {
     let largest = c.into_iter().fold(0.0, f64::max);
     let exponent = (largest.log2().floor() as i32 + 128).clamp(19, 253);
@@ -48,7 +48,7 @@ pub(super) struct Kept {
     pub length: f64,
 }
 
-/// Least power of two that is above the history's colour, also when its largest channel is rounded up to 13 bits, and whose
+/// The least power of two that is above the history's colour, even when its largest channel is rounded up to 13 bits, and whose
 /// square times 2¹¹ is above the variance. At least −113; with a variance that f32 can hold, at least −68.
 pub(super) fn history_exponent(color: V, variance: f64) -> i32 {
     let largest = color.into_iter().fold(0.0, f64::max);
@@ -63,15 +63,15 @@ pub(super) fn history_exponent(color: V, variance: f64) -> i32 {
     of_color.max(of_variance).clamp(-113, 126)
 }
 
-/// The variance whose code is 0, in parts of the square of the history's power of two.
+/// The variance whose code is 0, as a fraction of the square of the history's power of two.
 pub(super) const VARIANCE_UNIT: f64 = 1.0 / 1_048_576.0;
 
-/// The code, before it is rounded, of a variance in parts of the square of the history's power of two.
+/// The code of a variance before rounding; the variance is a fraction of the square of the history's power of two.
 pub(super) fn variance_code(relative: f64) -> f64 {
     float_code(relative / VARIANCE_UNIT, 16.0)
 }
 
-/// The code, before it is rounded, of a number as a float with so many steps in an octave; that of 2⁰ is 0.
+/// The code of a number before rounding, as a float with this number of steps in an octave; the code of 2⁰ is 0.
 pub(super) fn float_code(x: f64, steps: f64) -> f64 {
     let exponent = x.log2().floor();
     steps * (exponent + x / exponent.exp2() - 1.0)
@@ -82,8 +82,8 @@ fn from_float_code(code: f64, steps: f64) -> f64 {
     exponent.exp2() * (1.0 + code / steps - exponent)
 }
 
-/// Packs a history, rounded to the nearest: 3 × 13 bits and their exponent; 9 bits of variance; 8 bits of length, whose code
-/// for 1 is 1.
+/// Packs a history, rounded to the nearest: 3 × 13 bits and their exponent; 9 bits of variance; 8 bits of length, in which a
+/// length of 1 has the code 1.
 pub(super) fn pack_history(kept: Kept) -> [u32; 2] {
     if kept.length == 0.0 {
         return [0; 2];
@@ -123,8 +123,8 @@ pub(super) fn rounding(pixel: [u32; 2], index: u32) -> V {
     [0, 1, 2].map(|i| f64::from(bits[i].wrapping_add(index.wrapping_mul(step[i]))) / 2.0_f64.powi(32))
 }
 
-/// Packs a motion in steps of 1/256 pixel, 21 bits each with a sign, and a depth with 14 bits of mantissa. A motion that is
-/// too long leads nowhere.
+/// Packs a motion in steps of 1/256 pixel, 21 signed bits each, and a depth with 14 bits of mantissa. A motion that is too long
+/// leads nowhere.
 pub(super) fn pack_motion(m: V) -> [u32; 2] {
     let near = m[..2].iter().all(|c| c.abs() < 4095.5);
     let q = [0, 1].map(|i| if near { (m[i] * 256.0).round_ties_even() as i64 } else { -(1 << 20) });
@@ -152,7 +152,7 @@ pub(super) fn unpack_normal(bits: u32) -> V {
     [0, 10, 20].map(|shift| f64::from((bits << (22 - shift)) as i32 >> 22) / 511.0)
 }
 
-/// Colour and standard deviation.
+/// Packs a colour and a standard deviation.
 pub(super) fn pack_tap(color: V, deviation: f64) -> [u32; 2] {
     let [r, g, b] = color.map(pack_unsigned);
     [r | g << 16, b | pack_unsigned(deviation) << 16]

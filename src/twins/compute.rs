@@ -10,7 +10,7 @@ use wgpu::{
     ShaderModuleDescriptor, ShaderSource,
 };
 
-/// Binds the numbers at 0 and as many results as asked for at 1, and starts an invocation for each of the numbers.
+/// Binds the numbers at 0 and a number of results at 1, and starts an invocation for each of the numbers.
 pub(super) fn compute(
     source: &str,
     pass: &'static Pass,
@@ -21,7 +21,7 @@ pub(super) fn compute(
     compute_with(source, pass, features, numbers, results, &|_| None)
 }
 
-/// The same with the bindings of group 1 by name, if the shader has any.
+/// Does the same with the bindings of group 1 by name, if the shader has any.
 pub(super) fn compute_with<'a>(
     source: &str,
     pass: &'static Pass,

@@ -117,7 +117,7 @@ fn pairs_are_what_one_path_brought_now_and_before() {
             let i = images.bench.stratum(x, y).unwrap();
             let (mut now, mut before) = images.pair(x, y).unwrap_or_default();
             if limited && images.records[i][0] != 0 {
-                // The pixel where the surface was.
+                // The pixel of the surface's former place.
                 let place = images.records[i][1];
                 let kept = history[images.bench.at((place & 0xffff) as i32, (place >> 16) as i32).unwrap()];
                 let brighter = luminance(now).max(luminance(before));
@@ -165,7 +165,7 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
             written.append(
                 &mut images.bench.run(&Step::nth(&gradient_filter::PASS, across, Nth::iteration(iteration)), &inputs),
             );
-            // All thirteen numbers of a stratum: both colours with their squares, the product, the gradient.
+            // A stratum has thirteen numbers: both colours with their squares, the product, the gradient.
             let all = |now: &[Texel], before: &[Texel], gradient: &[Texel], i: usize| -> Vec<f64> {
                 let (n, b, product) = unpack_pair([now[i], before[i]]);
                 n.into_iter().chain(b).chain([product]).chain(gradient[i].map(float)).collect()
@@ -179,11 +179,11 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
                 };
                 let found = all(&written["now_out"], &written["before_out"], &written["gradient_out"], i);
                 for (channel, &found) in found.iter().enumerate() {
-                    // The gradient's last two numbers are those across surfaces.
+                    // The gradient's last two numbers are the ones across surfaces.
                     let blind = usize::from(channel >= 11);
                     let weight: f64 = taps.iter().map(|t| t.1[blind]).sum::<f64>().max(1.0);
                     let mean = |c: usize| taps.iter().map(|t| t.1[blind] * given[t.0][c]).sum::<f64>() / weight;
-                    // Exponents are known to some 1e-4. A weight of e⁻⁸ may be cut or not: 1e-4 of the largest.
+                    // Exponents are precise to some 1e-4. A tap with a weight of e⁻⁸ may be cut or not: an error of 1e-4 of the largest.
                     let largest = taps.iter().map(|t| given[t.0][channel]).fold(0.0, f64::max);
                     // Colours have 18 bits of the largest channel.
                     let brightest = match channel {
@@ -201,9 +201,9 @@ fn both_filters_are_weighted_means_over_the_same_surface() {
     }
 }
 
-/// ρ for red, green, blue and luminance, from the filtered pairs: a prior of 5 %, colour within 1½ of the luminance's, shrunk
-/// towards 1 by the ratio's own variance with 90 samples, within ¼…4. Also returns how far outside of that it would be (1 at
-/// half or twice), and the larger luminance.
+/// ρ for red, green, blue and luminance, from the filtered pairs: a prior of 5 %, colour within 1½ of the luminance's ρ, shrunk
+/// towards 1 by the ratio's own variance with 90 samples, within ¼…4. Also returns its distance outside of those limits (1 at half or
+/// twice), and the larger luminance.
 fn ratio(now: [f64; 4], before: [f64; 4], product: f64) -> ([f64; 4], f64, f64) {
     let [l, l_before] = [now, before].map(|p| luminance([p[0], p[1], p[2]]));
     if l.max(l_before) <= 7.9e-31 || l_before <= 1e-6 * l {
@@ -232,7 +232,7 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
             let images = Images::new(size, Settings { filter, ..Settings::adaptive() }, 8);
             let mut random = Random(9);
             let count = images.records.len();
-            // Filtered pairs that are alike, as a filter makes them: means, and products with some noise.
+            // The pairs are smooth, like a filter's output: means, and products with some noise.
             let filtered: Vec<FilteredPair> = (0..count)
                 .map(|_| {
                     let before = [0; 3].map(|_| random.between(0.1, 1.0));
@@ -266,7 +266,7 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 let what = || format!("{size:?} ({x}, {y}), γ {gamma}, ratio {with_ratio}");
                 let (rho, beyond, brighter) = match images.pair(x, y) {
                     Some(_) if with_ratio => {
-                        // The numbers as the textures hold them.
+                        // Take the numbers as the textures hold them.
                         let (now, before, product) = unpack_pair(pack_pair(&filtered[i]));
                         ratio(now, before, product)
                     }
@@ -290,9 +290,9 @@ fn the_gradient_is_what_the_ratio_does_not_explain() {
                 } else {
                     [0.0; 2]
                 };
-                // Beyond the limits all of the history is dropped.
+                // Beyond the limits, all of the history is dropped.
                 let expected = expected.map(|g| g + (brighter.powf(gamma.into()) - g) * beyond);
-                // pow is exp2 of a product in f32: up to 10⁵ takes 17 bits before the point.
+                // pow is exp2 of a product in f32: up to 10⁵, 17 bits are before the point.
                 assert_close(found[0], expected[0], 3e-4 * expected[1], || format!("{}: numerator", what()));
                 assert_close(found[1], expected[1], 3e-4 * expected[1], || format!("{}: denominator", what()));
                 let texel = written["gradient_out"][i];
@@ -311,7 +311,7 @@ fn a_hosts_pairs_go_the_same_way() {
     for size in SIZES {
         let images = Images::new(size, Settings::adaptive(), 12);
         let strata = images.bench.strata();
-        // The radiances of a stratum's path at the stratum's place, instead of in the images.
+        // Put the radiances of a stratum's path at the stratum's place, instead of in the images.
         let [now, before] = [0, 1].map(|which| -> Vec<Texel> {
             let texel = |&(x, y): &(i32, i32)| {
                 let (now, before) = images.pair(x, y)?;
@@ -351,7 +351,7 @@ fn where_nothing_changed_the_ratio_is_exactly_one_and_the_gradient_exactly_zero(
     for (x, y) in &strata {
         let i = images.bench.stratum(*x, *y).unwrap();
         let (px, py) = Bench::sample_pixel(images.records[i], *x, *y);
-        // The same pixel as before, so that both radiances are the same bits.
+        // The path is in the same pixel as before, so that both radiances have the same bits.
         images.records[i][1] = px as u32 | (py as u32) << 16;
     }
     let same = some_pairs(strata.len(), &mut Random(11)).into_iter().map(|(now, ..)| (now, now, now[3]));

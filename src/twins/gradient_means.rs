@@ -1,4 +1,4 @@
-//! The gradient without pairs: means of strata, their filter, and the λ and ρ that follow.
+//! The gradient without pairs: means of strata, their filter, and the resulting λ and ρ.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, float, luminance, pack_rgb, unpack_normal, unpack_rgb, word};
@@ -10,13 +10,13 @@ use crate::passes::{Nth, Step, gradient_means, gradient_means_filter, gradient_o
 use crate::plan::{Feature, Features};
 use crate::{FilterSettings, Settings};
 
-/// Means of new samples and of histories, with the variance of their difference, as the histories know it and as sums of
+/// Means of new samples and of histories, with the variance of their difference by the histories' own variance and as sums of
 /// squares.
 #[derive(Clone, Copy, Debug, Default)]
 struct Means {
     now: V,
     before: V,
-    /// V by the histories; l(s)²; l(s)·l(m); l(m)².
+    /// The histories' variance V; l(s)²; l(s)·l(m); l(m)².
     squares: [f64; 4],
 }
 
@@ -65,7 +65,7 @@ impl Means {
     }
 }
 
-/// The variance of one sample's luminance: unbiased, and mixed with that of a deviation of two means until the fifth sample.
+/// The variance of one sample's luminance: unbiased, and until the fifth sample mixed with the deviation of two means.
 fn sample_variance(variance: f64, mean: f64, n: f64) -> f64 {
     let unbiased = if n < 8.0 { variance * n / (n - 1.0).max(0.5) } else { variance };
     let known = ((n - 1.0) / 4.0).min(1.0);
@@ -208,7 +208,7 @@ fn the_filter_is_a_weighted_mean_over_the_same_surface() {
                 let found = Means::unpack([written["now_out"][s], written["before_out"][s]]);
                 let pairs = found.numbers().into_iter().zip(expected.numbers()).zip(largest);
                 for (number, (((found, _), (expected, step)), largest)) in pairs.enumerate() {
-                    // Weights are known to 1e-4.
+                    // Weights are precise to 1e-4.
                     assert_close(found, expected, 3e-4 * largest + step, || {
                         format!("{size:?} ({x}, {y}), number {number}, level {level}")
                     });
@@ -246,7 +246,7 @@ fn change(levels: &[Means; 3], with_ratio: bool) -> (f64, [f64; 4]) {
         }
     }
     if with_ratio {
-        // Beyond ¼…4, nothing is left of the history at half or twice of that.
+        // Beyond ¼…4 the history fades; at half or twice of that, nothing is left.
         lambda = lambda.max((2.0 - 8.0 * ratio[3]).max(ratio[3] / 4.0 - 1.0).clamp(0.0, 1.0));
     }
     (lambda, ratio.map(|r| r.clamp(0.25, 4.0)))
@@ -258,7 +258,7 @@ fn the_gradient_is_what_exceeds_the_noise() {
     let mut random = Random(22);
     let guide = bench.guide(&mut random);
     let records = bench.records(&guide, &mut random);
-    // A change that all levels see, with more or less noise; now and then none at all, or one out of the dark.
+    // All levels see a change, with more or less noise; now and then there is none at all, or one that starts from black.
     let levels: Vec<[Means; 3]> = (0..records.len())
         .map(|_| {
             let kind = random.below(8);
@@ -310,7 +310,7 @@ fn the_gradient_is_what_exceeds_the_noise() {
 #[test]
 fn a_single_bright_sample_is_no_change_and_many_are() {
     let of_hits = |hits: usize| {
-        // A mean of 400 samples, and a history that has forgotten how rare its light is.
+        // The mean is over 400 samples, and the history has forgotten how rare its light is.
         let samples = (0..400).map(|i| if i < hits { 20.0 } else { 0.0 });
         let mut sum = Means::default();
         for sample in samples {

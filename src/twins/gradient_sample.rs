@@ -13,7 +13,7 @@ fn guides(guide: &[[u32; 2]]) -> Vec<Texel> {
     guide.iter().map(|g| [g[0], g[1], 0, 0]).collect()
 }
 
-/// Records of a static view, frame after frame.
+/// The records of a static view, frame after frame.
 fn choose(bench: &Bench, guide: &[[u32; 2]], before: &[Texel]) -> Vec<Texel> {
     let motion: Vec<[u32; 2]> = guide.iter().map(|g| pack_motion([0.0, 0.0, depth(*g)])).collect();
     let inputs = [
@@ -30,7 +30,7 @@ fn choose(bench: &Bench, guide: &[[u32; 2]], before: &[Texel]) -> Vec<Texel> {
 
 #[test]
 fn a_static_view_visits_all_nine_places_in_nine_frames_and_none_twice_in_a_row() {
-    // A wall, so that every place of a stratum can be chosen.
+    // The scene is a wall, so that every place of a stratum can be chosen.
     let mut bench = Bench::new([33, 17], Settings::adaptive());
     let wall: Vec<[u32; 2]> = bench.pixels().map(|_| [super::codec::pack_normal([0.0, 0.0, 1.0]), word(4.0)]).collect();
     (bench.camera.target, bench.camera.eye) = ([0.0; 3], [0.0, 0.0, 4.0]);
@@ -74,7 +74,7 @@ fn what_is_chosen_is_the_same_surface_and_was_no_sample_before() {
             .pixels()
             .map(|(x, y)| {
                 let p = pinhole.project(bench.position(x, y, depth(guide[bench.at(x, y).unwrap()])));
-                // The motion as the texture holds it.
+                // Take the motion as the texture holds it.
                 unpack_motion(pack_motion([p[0] - f64::from(x) - 0.5 - jx, p[1] - f64::from(y) - 0.5 - jy, p[2]]))
             })
             .collect();

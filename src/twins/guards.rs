@@ -9,7 +9,7 @@ use crate::plan::Features;
 const BRIGHTEST: f32 = 1e15;
 
 /// Bits of numbers, and of NaN and infinities: quiet and signalling NaN of either sign with the least, the greatest and other
-/// payloads, infinities, both zeros, denormals, the largest numbers.
+/// payloads, infinities, both zeros, denormals, and the largest numbers.
 const BITS: [u32; 20] = [
     0x7fc0_0000,
     0xffc0_0000,
@@ -53,7 +53,7 @@ fn what_is_not_a_number_is_seen_and_stopped() {
         for channel in 0..3 {
             let given = color[channel];
             let passed = if given.is_finite() && given > 0.0 { given.min(BRIGHTEST) } else { 0.0 };
-            // A device may take denormals for 0 (WGSL, 15.7.2).
+            // A device may flush denormals to 0 (WGSL, 15.7.2).
             let flushed = given.is_subnormal() && found[channel] == 0.0;
             assert!(found[channel] == passed || flushed, "{}: {} for {passed}", what(), found[channel]);
         }

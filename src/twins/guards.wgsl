@@ -1,4 +1,4 @@
-// Numbers through the guards against what is not one, for the test of the guards.
+// Sends numbers through the guards against invalid values, for the test of the guards.
 
 #import asvgf::color::{is_finite, sanitize}
 

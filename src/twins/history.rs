@@ -1,4 +1,4 @@
-//! The history's format: right on average, whatever is cut off.
+//! The history's format: right on average in spite of rounding.
 
 use super::codec::{hash, history_exponent};
 use super::compute::compute;
@@ -13,7 +13,7 @@ struct Case {
     /// α; 0 stands for 1/n.
     alpha: f32,
     frames: u32,
-    /// Spread of the samples, in parts of the colour.
+    /// Spread of the samples, as a fraction of the colour.
     spread: f32,
 }
 
@@ -23,7 +23,7 @@ impl Case {
     }
 }
 
-/// Colour, variance and length of each case as they were stored last.
+/// The last stored colour, variance and length of each case.
 fn run(cases: &[Case]) -> Vec<([f64; 3], f64, f64)> {
     let numbers: Vec<[f32; 4]> = cases
         .iter()
@@ -36,7 +36,7 @@ fn run(cases: &[Case]) -> Vec<([f64; 3], f64, f64)> {
     found.chunks_exact(2).map(|t| ([0, 1, 2].map(|i| t[0][i].into()), t[0][3].into(), t[1][0].into())).collect()
 }
 
-/// Asserts that a mean of so many numbers, with this root mean square, is 0 within five standard errors.
+/// Asserts that a mean of these numbers is 0 within five standard errors, given their root mean square.
 fn assert_centred(errors: &[f64], what: &str) {
     let n = errors.len() as f64;
     let (mean, square) = (errors.iter().sum::<f64>() / n, errors.iter().map(|e| e * e).sum::<f64>() / n);
@@ -51,7 +51,7 @@ fn what_is_rounded_is_right_on_average_and_never_a_step_off() {
             let scale = 10.0_f64.powf(random.between(-30.0, 30.0));
             let color = [0; 3].map(|_| (scale * random.unit()) as f32);
             let variance = (scale * random.between(-6.0, 13.0).exp2()).powi(2);
-            // A variance that f32 cannot hold is none.
+            // A variance that f32 cannot hold counts as 0.
             let variance = if (1e-37..1e37).contains(&variance) { variance as f32 } else { 0.0 };
             Case::once(color, variance, random.between(0.0, 15.0).exp2() as f32)
         })
@@ -82,7 +82,7 @@ fn what_is_rounded_is_right_on_average_and_never_a_step_off() {
 #[test]
 fn a_part_of_a_step_is_rounded_up_as_often_as_it_is_large() {
     const CASES: usize = 1 << 18;
-    // With a largest channel of 4096 … 8191 a step is 1, and an ulp of f32 its 2048th. The last two cases have finer ones.
+    // With a largest channel of 4096 … 8191, a step is 1 and an ulp of f32 is its 2048th. The last two cases have finer steps.
     for [red, green, blue] in [[1.0, 9.0, 3.0], [3.0, 2.0, 0.25], [7.0, 1024.0, 0.5], [1531.0, 2047.0, 4.75]] {
         let parts = [red, green, blue].map(|p: f64| p / 2048.0);
         let color = [5000.0 + parts[0] as f32, 4097.0 + parts[1] as f32, 900.0 + parts[2] as f32];
@@ -102,7 +102,7 @@ fn what_needs_no_rounding_stays_what_it_is() {
     let frames = |case: Case| Case { frames: 1000, alpha: 1.0 / 64.0, ..case };
     let lengths = (1..=32).chain([48, 64, 100, 128, 1024, 32768]).map(|n| n as f32);
     let mut cases: Vec<Case> = lengths.map(|n| frames(Case::once([0.5, 0.25, 8191.0 / 8192.0], 0.75, n))).collect();
-    // Black, one channel, the largest number of a step, black that flickers, and light that flickers by far more.
+    // The cases are black, one channel, the largest number of a step, black that flickers, and light that flickers far more.
     for (color, variance) in [
         ([0.0; 3], 0.0),
         ([0.0, 3e9_f32.round(), 0.0].map(|c| (c / 1e6).floor() * 1048576.0), 0.0),
@@ -147,14 +147,14 @@ fn running_averages_neither_drift_nor_stall() {
     const CASES: usize = 2000;
     for (alpha, spread) in [(1.0 / 64.0, 1.0), (1.0 / 64.0, 0.01), (0.0, 1.0), (0.0, 0.1)] {
         let color = [0.7_f32, 0.31, 0.02];
-        // The random numbers of red, which are spread evenly.
+        // Take the random numbers of red, which are spread evenly.
         let variance = (color[0] * spread).powi(2) / 3.0;
         let case = || Case { alpha, frames: FRAMES, spread, ..Case::once(color, variance, 1.0) };
         let cases: Vec<Case> = (0..CASES).map(|_| case()).collect();
         let step = f64::from(history_exponent(color.map(f64::from), variance.into()) - 13).exp2();
         let mut errors = [const { Vec::new() }; 3];
         for (i, (found, found_variance, length)) in run(&cases).into_iter().enumerate() {
-            // The same averages in f64, the colour's in parts of it.
+            // Average the same in f64, with the colour as a fraction of itself.
             let (mut mean, mut square) = (1.0, f64::from(variance));
             for k in 1..=FRAMES {
                 let u = f64::from(hash(i as u32 ^ hash(k)) >> 8) / 16_777_216.0;
@@ -168,8 +168,8 @@ fn running_averages_neither_drift_nor_stall() {
             let counted = if alpha == 0.0 { f64::from(FRAMES + 1) } else { 1.0 };
             errors[2].push((length / counted - 1.0) * 16.0);
         }
-        // At worst each frame adds ¼ step², which later frames shrink: Σ (1 − α)^2k = 1/(2α), or Σ (k/n)² = n/3. A length is
-        // counted up, in frame k by s ≤ k/16 in one case of s: that adds s − 1, and n²/32 in all, which is 8 of (n/16)².
+        // At worst, each frame adds ¼ step², which later frames shrink: Σ (1 − α)^2k = 1/(2α), or Σ (k/n)² = n/3. A length is
+        // counted up by s in one case of s, with s ≤ k/16 in frame k: that adds s − 1, and n²/32 in all, which is 8 of (n/16)².
         let averaged = if alpha == 0.0 { f64::from(FRAMES) / 3.0 } else { 0.5 / f64::from(alpha) };
         let counted = 8.0 / 0.25;
         for ((errors, most), what) in
@@ -181,7 +181,7 @@ fn running_averages_neither_drift_nor_stall() {
             println!("α {alpha}, spread {spread}, {what}: rms {rms:.2} steps, mean {mean:.3}");
             let bound = (0.25 * most).sqrt();
             assert!(rms <= bound, "α {alpha}, spread {spread}, {what}: {rms} steps");
-            // Five standard errors; a case's channels share its random numbers.
+            // Five standard errors of independent cases; the channels of a case share its random numbers.
             let drift = 5.0 * bound / (CASES as f64).sqrt();
             assert!(mean.abs() <= drift, "α {alpha}, spread {spread}, {what}: {mean} steps too high");
         }

@@ -1,4 +1,4 @@
-// Histories packed and read again, or averaged over frames, for the test of their format.
+// Packs histories and reads them again, or averages them over frames, for the test of their format.
 
 #import asvgf::history::{pack_history, history_color, history_variance, history_length, rounding}
 #import asvgf::random::hash
@@ -24,7 +24,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let sample = a.xyz * (1.0 + b.w * (2.0 * u - 1.0));
         let counts = b.y == 0.0;
         let alpha = select(b.y, 1.0 / f32(k + 1u), counts);
-        // The mean of the samples is known, which keeps the colour's own error out of the deviation.
+        // The mean of the samples is exact, which keeps the colour's own error out of the deviation.
         let deviation = a.x * b.w * (2.0 * u - 1.0);
         let variance = history_variance(bits) + select(0.0, alpha * (deviation * deviation - history_variance(bits)), b.w > 0.0);
         let length = history_length(bits) + select(0.0, 1.0, counts && b.w > 0.0);

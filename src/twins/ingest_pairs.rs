@@ -11,7 +11,7 @@ use crate::plan::{Feature, Features};
 /// Albedos that f16 holds exactly.
 const HALVES: [(u32, f64); 3] = [(0x3400, 0.25), (0x3800, 0.5), (0x3c00, 1.0)];
 
-/// An image of a host: nothing in so many of twelve pixels, and now and then nonsense.
+/// An image of a host: no value in `nothing` of twelve pixels, and now and then an invalid one.
 fn values(count: usize, nothing: usize, random: &mut Random) -> Vec<V> {
     (0..count)
         .map(|_| match random.below(12) {
@@ -51,7 +51,7 @@ fn check(features: &[Feature]) {
         let written = bench.run(&step, &inputs);
         for (sx, sy) in bench.strata() {
             let s = bench.stratum(sx, sy).unwrap();
-            // The centre, or the pixel nearest to it; else the first of nine.
+            // Take the centre or the pixel nearest to it; else the first of nine.
             let [w, h] = size.map(|s| s as i32);
             let places: Vec<(i32, i32)> = if per_stratum {
                 vec![((3 * sx + 1).min(w - 1), (3 * sy + 1).min(h - 1))]

@@ -13,7 +13,7 @@ fn half(bits: u32) -> f64 {
     if exponent == 0 { mantissa * 2.0_f64.powi(-24) } else { (1.0 + mantissa / 1024.0) * 2.0_f64.powi(exponent - 15) }
 }
 
-/// Colours, now and then with a channel that is no number.
+/// Colours, now and then with a channel that is not a number.
 fn colors(count: usize, random: &mut Random) -> Vec<[f32; 3]> {
     let broken = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -0.25];
     let channel = |random: &mut Random| match random.below(12) {
@@ -33,7 +33,7 @@ fn clean(x: f32) -> f64 {
     }
 }
 
-/// The albedo that divides. One that is no number is unknown, and divides by nothing.
+/// The albedo that divides radiance. An albedo that is not a number is unknown, and divides nothing.
 fn known(x: f32) -> f64 {
     if x.is_finite() { clean(x) } else { 1.0 }
 }
@@ -49,12 +49,12 @@ fn check(features: &[Feature], continued: bool) {
         let guide = bench.guide(&mut random);
         let records = bench.records(&guide, &mut random);
         let [mut radiance, mut albedo, emission] = [0; 3].map(|_| colors(count, &mut random));
-        // Ink, and surfaces that are bright although their albedo is 0.
+        // Some pixels are ink, or are bright although their albedo is 0.
         for i in (0..count).filter(|i| i % 7 == 3) {
             albedo[i] = [0.0; 3];
             radiance[i] = if i % 2 == 0 { [0.0; 3] } else { radiance[i] };
         }
-        // Powers of ½: ¼, ½, 1.
+        // The albedos are powers of ½: ¼, ½, 1.
         let before: Vec<u32> = (0..count).map(|_| [0x3400, 0x3800, 0x3c00][random.below(3)]).collect();
         let texels = |image: &[[f32; 3]]| -> Vec<Texel> {
             image.iter().map(|c| [c[0].to_bits(), c[1].to_bits(), c[2].to_bits(), 0]).collect()
@@ -90,7 +90,7 @@ fn check(features: &[Feature], continued: bool) {
                     }
                 }
             }
-            // Neither light nor albedo, beside four pixels that have one.
+            // Some pixels have neither light nor albedo, beside four pixels that have one.
             let reflects = |&(x, y): &(i32, i32)| bench.at(x, y).is_some_and(|q| albedo[q].iter().any(|&a| a > 0.0));
             let around = (y - 1..=y + 1).flat_map(|y| (x - 1..=x + 1).map(move |x| (x, y)));
             let black = expected == [0.0; 3] && albedo[i] == [0.0; 3];
@@ -109,11 +109,11 @@ fn check(features: &[Feature], continued: bool) {
                     };
                     assert_close(found[c], a, 1e-3 * a, || format!("{}: albedo", what()));
                     if modulated && has(Feature::Reshade) && repeats {
-                        // The surface of the pixel whose path is repeated.
+                        // The surface is that of the pixel whose path is repeated.
                         let q = bench.at((record[1] & 0xffff) as i32, (record[1] >> 16) as i32).unwrap();
                         expected[c] /= half(before[q]);
                     } else if modulated {
-                        // Divided by the albedo that was stored.
+                        // Radiance is divided by the stored albedo.
                         expected[c] /= found[c].max(0.02);
                     }
                 }

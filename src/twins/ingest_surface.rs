@@ -1,4 +1,4 @@
-//! A host's surfaces: which are kept, which count as a miss, and where a point was.
+//! A host's surfaces: those that are kept, those that count as a miss, and the former place of a point.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, unpack_motion, unpack_normal, word};
@@ -15,7 +15,7 @@ fn octahedral(n: V) -> [f64; 2] {
     if n[2] >= 0.0 { [n[0], n[1]] } else { [(1.0 - n[1].abs()) * sign(n[0]), (1.0 - n[0].abs()) * sign(n[1])] }
 }
 
-/// A normal as the host hands it in.
+/// A normal in the host's encoding.
 fn encode(n: V, features: Features) -> Texel {
     if features.has(Feature::PackedNormals) {
         let [x, y] = octahedral(n).map(|e| ((e * 0.5 + 0.5) * 65535.0).round() as u32);
@@ -125,7 +125,7 @@ fn check(features: &[Feature]) {
             for (found, expected) in motion.into_iter().zip(motions[i]) {
                 assert_close(found, expected, 1.0 / 512.0, || format!("{}: motion", what()));
             }
-            // Rounded to 14 bits of mantissa; the number is a sum of some ten in f32.
+            // The depth is rounded to 14 bits of mantissa, and is a sum of some ten terms in f32.
             assert_close(motion[2], previous, 3.3e-5 * previous, || format!("{}: depth before", what()));
         }
     }

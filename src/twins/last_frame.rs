@@ -33,7 +33,7 @@ pub(super) struct Given {
     pub(super) limit: Vec<Texel>,
 }
 
-/// Notes on the way, see [`Blended`].
+/// Notes taken on the way, see [`Blended`].
 #[derive(Default)]
 pub(super) struct Notes {
     pub(super) unsure: bool,
@@ -67,7 +67,7 @@ impl Before {
     }
 }
 
-/// Stand for a missing radiance, and mark an infinite one.
+/// The texel of a missing radiance, and the mark of an infinite one.
 pub(super) const NO_SAMPLE: Texel = [0, 1 << 22, 0, 0];
 pub(super) const INFINITE: u32 = 1 << 31;
 
@@ -86,7 +86,7 @@ impl Given {
         let mut random = Random(u64::from(size[0]) + u64::from(moving));
         let guide = bench.guide(&mut random);
         let now = bench.clone();
-        // The same planes as the last frame saw them.
+        // The last frame saw the same planes.
         let was = Bench { camera: bench.previous, ..bench.clone() };
         let guide_before = was.guide(&mut Random(99));
         let motion =
@@ -113,7 +113,7 @@ impl Given {
             .map(|_| {
                 let length = if gaps && random.below(4) == 0 { 0.0 } else { 1.0 + 20.0 * random.unit().powi(2) };
                 let color = if features.has(Feature::Feedback) { [random.unit(); 3] } else { radiance(&mut random) };
-                // The numbers as the texture holds them.
+                // Take the numbers as the texture holds them.
                 unpack_history(pack_history(Kept { color, variance: random.unit().powi(4), length }))
             })
             .collect();
@@ -126,17 +126,17 @@ impl Given {
         let gradient = samples
             .iter()
             .map(|_| match random.below(5) {
-                // Nothing to compare, no change, all changed, and more than all.
+                // The cases are nothing to compare, no change, a complete change, and more than that.
                 0 => [0; 4],
                 1 => [0, word(0.7), 0, 0],
                 2 => [word(1.1), word(1.0), 0, 0],
-                // Negative if the differences have a sign.
+                // The numerator may be negative if the differences have a sign.
                 3 if signed => [word(-0.6 * random.unit()), word(1.0), 0, 0],
                 _ => [word(0.6 * random.unit()), word(1.0), 0, 0],
             })
             .collect();
         let [across, down] = size.map(|s| s.div_ceil(bench.lambda_block));
-        // λ, or a number that is no λ: none of these may come through.
+        // Texels are λ, or numbers that are no λ: none of the latter may come through.
         let external = (0..across * down)
             .map(|_| match random.below(8) {
                 0 => [f32::NAN.to_bits(); 4],
@@ -200,8 +200,7 @@ impl Given {
         (texel != NO_SAMPLE && texel[1] & INFINITE == 0).then(|| unpack_rgb([texel[0], texel[1]]))
     }
 
-    /// Colour, variance and length of the history under the four nearest taps, if there is one; and true if a threshold was
-    /// near.
+    /// Colour, variance and length of the history under the four nearest taps, if there is one; and true if a threshold was near.
     pub(super) fn bilinear_history(&self, i: usize, x: i32, y: i32) -> (Option<(V, f64, f64)>, bool) {
         let mut notes = Notes::default();
         let (sum, ..) = self.bilinear(i, x, y, &mut notes);
@@ -269,7 +268,7 @@ impl Given {
         }
     }
 
-    /// The history of a pixel: bilinear, or else from a Gaussian over 4×4; the pixel's own if nothing moves.
+    /// The history of a pixel: bilinear, or else from a Gaussian over 4×4; its own if nothing moves.
     pub(super) fn before(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> Option<Before> {
         if self.has(Feature::Still) {
             let (color, mean) = self.stored(i);
@@ -301,7 +300,7 @@ impl Given {
         let point = [f64::from(x) + m[0], f64::from(y) + m[1]];
         let was = Pinhole::new(&self.bench.previous, self.bench.size);
         let origin = add(was.eye, scale(was.ray(point[0] + 0.5 + jx, point[1] + 0.5 + jy), m[2]));
-        // A motion that is whole but for rounding errors stays on its pixel.
+        // A motion that is whole up to rounding errors stays on its pixel.
         let corner = point.map(|p| (p + 1e-4).floor());
         notes.unsure |= point.iter().any(|p| ((p + 1e-4) - (p + 1e-4).round()).abs() < 1e-5);
         let f = [0, 1].map(|a| (point[a] - corner[a]).max(0.0));
@@ -317,7 +316,7 @@ impl Given {
 }
 
 impl Bench {
-    /// Former place, in pixels, and depth of a surface that stands still; now and then it moves, or comes from nowhere.
+    /// Former place, in pixels, and depth of a surface that stands still; now and then it moves, or was nowhere.
     fn motion(&self, x: i32, y: i32, z: f64, random: &mut Random) -> V {
         let [jx, jy] = self.camera.jitter.map(f64::from);
         let was = Pinhole::new(&self.previous, self.size).project(self.position(x, y, z));
@@ -327,7 +326,7 @@ impl Bench {
             _ => [0.0; 2],
         };
         let moved = [was[0] - f64::from(x) - 0.5 - jx + extra[0], was[1] - f64::from(y) - 0.5 - jy + extra[1], was[2]];
-        // The numbers as the texture holds them.
+        // Take the numbers as the texture holds them.
         unpack_motion(pack_motion(moved))
     }
 }

@@ -1,4 +1,4 @@
-//! Structs that exist twice, in Rust and in WGSL, must agree on the place of each field.
+//! Structs that exist in Rust and in WGSL must agree on the place of each field.
 
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::passes::{Pass, trace};
@@ -16,7 +16,7 @@ pub(crate) fn assert_layout(name: &str, fields: &[Field], size: usize) {
     assert_layout_in(&trace::PASS, features, name, fields, size);
 }
 
-/// [`assert_layout`] for another shader.
+/// Does the same as [`assert_layout`] for another shader.
 pub(crate) fn assert_layout_in(pass: &'static Pass, features: Features, name: &str, fields: &[Field], size: usize) {
     let permutation = Permutation { pass, features, traversal: Default::default(), view: None };
     let module = Shaders::new().and_then(|mut s| s.compose(permutation)).unwrap_or_else(|e| panic!("{e}"));

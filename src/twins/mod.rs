@@ -1,5 +1,5 @@
-//! Tests of the shaders that need the crate's inside: each pass alone against its f64 twin on the CPU, the layout of uploaded
-//! structs, every permutation, and the traversal.
+//! Tests of the shaders that need access to the crate's private parts: each pass alone against its f64 twin on the CPU, the layout
+//! of uploaded structs, every permutation, and the traversal.
 //!
 //! Twins follow the documented equations in f64 and share no code with the shaders. Their inputs are the numbers that the
 //! textures hold, so that only the arithmetic between loading and storing differs.

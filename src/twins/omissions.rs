@@ -1,4 +1,4 @@
-//! A feature that a plan leaves out is left out of its shaders, as naga sees them, of its bindings and of its memory.
+//! A feature that a plan leaves out is absent from its shaders, as naga sees them, from its bindings and from its memory.
 
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::passes::{Pass, resolve, temporal, trace, visibility};
@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use wgpu::TextureFormat;
 use wgpu::naga::Module;
 
-/// A scene with everything but few triangles.
+/// A scene with everything except few triangles.
 const ALL: SceneContents = SceneContents {
     instanced: true,
     textures: true,
@@ -44,7 +44,7 @@ fn names(module: &Module) -> BTreeSet<&str> {
     functions.chain(globals).map(|name| name.split("X_naga_oil").next().unwrap_or(name)).collect()
 }
 
-/// The amount of code.
+/// The amount of code, as the number of expressions.
 fn expressions(module: &Module) -> usize {
     let entries = module.entry_points.iter().map(|entry| entry.function.expressions.len());
     entries.chain(module.functions.iter().map(|(_, f)| f.expressions.len())).sum()
@@ -56,7 +56,7 @@ fn pair<'a>(with: &'a Plan, without: &'a Plan, pass: &Pass) -> [&'a Step; 2] {
         .map(|plan| plan.steps.iter().find(|step| step.pass == pass).unwrap_or_else(|| panic!("no {pass:?}")))
 }
 
-/// Asserts that a step has lost code, and exactly these functions and bindings.
+/// Asserts that a step has less code without the feature, and lacks exactly these functions and bindings.
 fn assert_leaner(shaders: &mut Shaders, [with, without]: [&Step; 2], lost: &[&str]) {
     let [with, lean] = [with, without].map(|step| compose(shaders, step));
     let what = format!("{:?} with {:?}", without.pass, without.features);

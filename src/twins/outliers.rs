@@ -1,4 +1,4 @@
-//! Outliers: candidates, the limit that the strata around set, and how far a sample is believed.
+//! Outliers: candidates, the limit from the surrounding strata, and the belief in a sample.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, float, luminance, unpack_rgb, word};
@@ -89,19 +89,19 @@ impl Limit {
     }
 }
 
-/// B = limit·level·max(1, min(n, longest history)/64).
+/// The bound B = limit·level·max(1, min(n, longest history)/64).
 pub(super) fn bound(settings: &Settings, level: f64, length: f64) -> f64 {
     let length = length.min(settings.filter.max_history.into());
     f64::from(settings.filter.outlier_limit) * level * (length / 64.0).max(1.0)
 }
 
-/// l/B.
+/// The ratio l/B.
 pub(super) fn ratio_to(bound: f64, l: f64) -> f64 {
     if l > 0.0 { (l / bound.max(l / MOST_RATIO)).min(MOST_RATIO) } else { 0.0 }
 }
 
-/// True if light of this luminance is believed in a stratum beside a history, for pairs and means: `leeway` times as much as
-/// a sample. The second is true where rounding decides.
+/// True if a stratum beside a history believes light of this luminance, for pairs and means: `leeway` times as much as a sample.
+/// The second is true if rounding decides.
 pub(super) fn believed(settings: &Settings, limit: Texel, history: [f64; 2], l: f64, leeway: f64) -> (bool, bool) {
     let limit = Limit::unpack(limit);
     let [level, length] = history;
@@ -110,8 +110,8 @@ pub(super) fn believed(settings: &Settings, limit: Texel, history: [f64; 2], l: 
     (ratio <= limit.ratio, (ratio / limit.ratio - 1.0).abs() < 1e-2)
 }
 
-/// How far a sample is believed: its weight, the factor on its luminance, and true if it was seen so often that the history
-/// is wrong.
+/// The belief in a sample: its weight, the factor on its luminance, and true if it was seen so often that the history must be
+/// wrong.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Belief {
     pub(super) weight: f64,
@@ -121,7 +121,7 @@ pub(super) struct Belief {
 }
 
 impl Given {
-    /// `level` and `length` are those of the history, 0 if there is none. Notes that a threshold is near.
+    /// The belief in a sample. `level` and `length` are those of the history, 0 if there is none. Notes that a threshold is near.
     pub(super) fn belief(
         &self,
         [x, y]: [i32; 2],
@@ -189,7 +189,7 @@ pub(super) fn limits(bench: &Bench, random: &mut Random) -> Vec<Texel> {
         .collect()
 }
 
-/// A stratum's record by the formulas; the second is true where a threshold was near.
+/// A stratum's record by the formulas; the second is true if a threshold was near.
 fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -> (Candidate, bool) {
     let bench = &given.bench;
     let mut unsure = false;
@@ -199,7 +199,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
     let mut implied = 0.0;
     let mut length = 0.0;
     let mut carried = (0, 0);
-    // Samples without a history.
+    // These samples have no history.
     let mut fresh: Vec<(f64, u32, u32)> = Vec::new();
     for at in [4, 5, 6, 7, 8, 0, 1, 2, 3] {
         let (x, y) = (sx * 3 + at % 3, sy * 3 + at / 3);
@@ -261,7 +261,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
     let others = (sum - largest.0) / (fresh.len() as f64 - 1.0).max(1.0);
     let ratio = ratio_to(bound(&bench.settings, others, 1.0), largest.0);
     let candidate = fresh.len() > 1 && ratio > 0.5;
-    // Sums of f32 cancel.
+    // Sums of f32 cancel, so rounding may decide.
     unsure |= !fresh.is_empty() && ((ratio - 0.5).abs() < 1e-3 || others < 1e-5 * sum && others > 0.0);
     unsure |= fresh.len() > 1 && (ratio / farthest - 1.0).abs() < 1e-3;
     let rest = sum - if candidate { largest.0 } else { 0.0 };
@@ -296,7 +296,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
     }
     now.running = match found {
         true => (now.running + 1).min(7),
-        // Nothing was learnt in this frame.
+        // This frame added no knowledge.
         false if carried.0 != 0 => now.running,
         false => 0,
     };
@@ -345,7 +345,7 @@ fn candidates_are_what_is_far_above_its_level() {
     assert!(found * 8 > compared && unsure * 5 < compared, "{found} of {compared}, {unsure} unsure: no grip");
 }
 
-/// The limit of a stratum from all records of its window at once; the second is true where a threshold was near.
+/// The limit of a stratum, from all records of its window at once; the second is true if a threshold was near.
 fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) {
     let extent = bench.size.map(|s| s.div_ceil(3) as i32);
     let range = |at: i32, extent: i32| {
@@ -385,7 +385,7 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
     let believed = (0..15).rev().find(|&k| classes.iter().filter(|c| **c >= f64::from(k)).count() as f64 >= asked);
     let sightings = if doubtful { 6 } else { 3 };
     let ratio = match believed.filter(|_| !doubtful) {
-        // All is believed where no sample was seen.
+        // Without any sample, everything is believed.
         _ if strata == 0.0 => 3e38,
         None => 1.0,
         Some(13 | 14) => 3e38,
@@ -404,7 +404,7 @@ fn a_limit_is_what_the_window_has_seen() {
         let records: Vec<Texel> = candidates(&bench, &mut Random(seed))
             .into_iter()
             .map(|texel| {
-                // Hardly any candidates, or many.
+                // There are hardly any candidates, or many.
                 let mut c = Candidate::unpack(texel);
                 if seed == 1 {
                     (c.candidates, c.lit) = (0, c.seen);

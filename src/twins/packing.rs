@@ -1,4 +1,4 @@
-//! The packed formats lose no more than they promise.
+//! The packed formats lose no more than documented.
 
 use super::codec::{pack_motion, unpack_motion};
 use super::compute::compute;
@@ -28,7 +28,7 @@ fn cases() -> Vec<Case> {
             }
         })
         .collect();
-    // Numbers at an edge: nothing, one channel alone, the largest mantissa, powers of two, motions at their ends.
+    // The edge cases are nothing, one channel alone, the largest mantissa, powers of two, and motions at their limits.
     let edges =
         [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.0, 1e-30], [1e30, 0.0, 1e29], [0.999_999_9; 3], [2.0; 3], [1e-36; 3]];
     for (case, color) in cases.iter_mut().zip(edges) {
@@ -71,7 +71,7 @@ fn every_format_keeps_what_it_promises() {
         let largest = f64::from(case.color.into_iter().fold(0.0, f32::max));
         for (i, &exact) in case.color.iter().enumerate() {
             let (back, x) = (f64::from(found[0][i]), f64::from(exact));
-            // A step of 18 bits of the largest channel, rounded; below 2⁻¹⁰⁸, steps of the smallest exponent.
+            // The error is a rounded step of 18 bits of the largest channel; below 2⁻¹⁰⁸, of the smallest exponent.
             assert!(
                 (back - x).abs() <= largest * 1.0001 * 2.0_f64.powi(-18) + 2.0_f64.powi(-126),
                 "{back} for {x} of {largest}"
@@ -97,7 +97,7 @@ fn every_format_keeps_what_it_promises() {
         assert!((moved[2] / case.motion[2] - 1.0).abs() <= 2.0_f64.powi(-15) || moved[2] == case.motion[2]);
         let unfolded = octahedral(case.octahedral);
         for (i, expected) in unfolded.into_iter().enumerate() {
-            // Cancellation in 1 − |x| − |y|, and the rounding of a square root.
+            // The error comes from cancellation in 1 − |x| − |y| and from the rounding of a square root.
             assert!((f64::from(found[3][i]) - expected).abs() < 1e-6, "{:?} for {unfolded:?}", found[3]);
         }
     }

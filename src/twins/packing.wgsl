@@ -1,4 +1,4 @@
-// Numbers through every format and back, for the test of the formats.
+// Sends numbers through every format and back, for the test of the formats.
 
 #import asvgf::packing::{pack_rgb, unpack_rgb, pack_unsigned, unpack_unsigned, pack_motion, unpack_motion, pack_normal, unpack_normal, unpack_octahedral, round_to_f16}
 

@@ -1,5 +1,5 @@
-//! Every shader that some scene and some settings can ask for compiles, within core WebGPU and the default limits, and asks
-//! for exactly the bindings that its step names.
+//! Every shader that a scene and settings can ask for compiles, within core WebGPU and the default limits, and asks for exactly the
+//! bindings that its step names.
 
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
@@ -23,16 +23,16 @@ fn noop_device() -> (Device, Queue) {
     pollster::block_on(adapter.request_device(&DeviceDescriptor::default())).unwrap()
 }
 
-/// All combinations of contents. Some 150 shaders a second are checked, all in a quarter of a minute.
+/// All combinations of contents. The test checks some 150 shaders a second, and all in a quarter of a minute.
 fn contents() -> Vec<SceneContents> {
     (0_u32..8192)
-        // Only images may be folded. Folding changes one function, so it is tried with a part of the rest.
+        // Only images may be folded. Folding changes one function, so it is combined with a part of the rest.
         .filter(|bits| bits >> 12 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1101_0110_0000 == 0)
-        // There is no alpha mask where each triangle is tested.
+        // There is no alpha mask if each triangle is tested.
         .filter(|bits| bits >> 4 & 1 == 0 || bits >> 9 & 1 == 0)
-        // Colours of vertices have nothing in common with the kinds of light.
+        // Colours of vertices are independent of the kinds of light.
         .filter(|bits| bits >> 10 & 1 == 0 || bits >> 5 & 15 == 15)
-        // A blended material has an opacity to test; the normals have nothing in common with it.
+        // A blended material has an opacity to test; the normals are independent of it.
         .filter(|bits| bits >> 11 & 1 == 0 || bits >> 4 & 1 == 1 && bits >> 2 & 3 == 3)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
@@ -68,12 +68,12 @@ const MODES: [Mode; 3] = [Mode::Denoise, Mode::Noisy, Mode::Reference];
 const CHANGES: [Changes; 3] = [Changes::ANY, Changes { camera: true, scene: false }, Changes::NONE];
 const TARGETS: [TextureFormat; 2] = [TextureFormat::Rgba16Float, TextureFormat::Rgba32Float];
 
-/// All combinations of what a host may hand in.
+/// All combinations of a host's inputs.
 fn host_inputs() -> Vec<HostInputs> {
     (0_u32..1 << 11)
         .flat_map(|bits| {
             let bit = move |i: u32| bits >> i & 1 == 1;
-            // Direct, mapped, octahedral, both, packed.
+            // The five forms of normals are direct, mapped, octahedral, both, packed.
             (0..5).map(move |normal| HostInputs {
                 octahedral_normals: normal == 2 || normal == 3,
                 mapped_normals: normal == 1 || normal == 3,
@@ -127,8 +127,8 @@ fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
         .collect()
 }
 
-/// Plans whose steps cover all that is reachable: tracing depends on contents, sampling and gradient alone, filtering on the
-/// filter and on the presence of objects.
+/// Plans whose steps cover all reachable shaders: tracing depends on contents, sampling and gradient alone, filtering on the filter
+/// and on the presence of objects.
 fn plans() -> Vec<Plan> {
     let mut plans = Vec::new();
     for (contents, (sampling, gradient)) in product(&contents(), &product(&SAMPLINGS, &GRADIENTS)) {
@@ -145,7 +145,7 @@ fn plans() -> Vec<Plan> {
             plans.push(plan);
         }
     }
-    // Paths of one frame in one dispatch, two, or more.
+    // The paths of a frame take one dispatch, two, or more.
     for (contents, samples) in product(&contents(), &[1, 40, 1000]) {
         let tracer = TracerSettings { samples, ..Default::default() };
         let contents = SceneContents { levels: 12, ..contents };
@@ -164,7 +164,7 @@ fn plans() -> Vec<Plan> {
     plans
 }
 
-/// The same for hosts' frames: taking them in depends on the inputs and the gradient; filtering depends on the filter, on the
+/// Such plans for hosts' frames: taking them in depends on the inputs and the gradient; filtering depends on the filter, on the
 /// presence of objects, and on the kind of pairs or λ.
 fn host_plans() -> Vec<Plan> {
     let mut plans = Vec::new();
@@ -174,7 +174,7 @@ fn host_plans() -> Vec<Plan> {
             plans.push(Plan::hosted(&inputs, &settings, changes, TextureFormat::Rgba32Float));
         }
     }
-    // The host's own images, and copies of some or all.
+    // Combine the host's own images with copies of some or all.
     for (bits, (mode, target)) in product(&(0_u32..1 << 6).collect::<Vec<_>>(), &product(&MODES, &TARGETS)) {
         let bit = |i: u32| bits >> i & 1 == 1;
         let inputs = HostInputs {
@@ -225,7 +225,7 @@ pub(super) fn steps() -> BTreeMap<Permutation, Step> {
     steps
 }
 
-/// The same for every size of stack and of few triangles, in a scene that has everything.
+/// Every shader for each size of stack and each number of few triangles, in a scene that has everything.
 pub(super) fn traversals() -> BTreeMap<Permutation, Step> {
     let stacks = [4, 64].map(|stack| Traversal::Tree { stack });
     let counts = [8, 16, 24, 32, 40, 48, 56, 64].map(|triangles| Traversal::Every { triangles });
@@ -290,7 +290,7 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
     println!("{counts:?}");
     assert_eq!(counts.len(), 23, "a pass is never run: {counts:?}");
     let reached: Features = steps.keys().flat_map(|permutation| permutation.features.iter()).collect();
-    // Statistics decide which passes there are, and nothing within them.
+    // Statistics decide which passes run, and nothing within them.
     let reached = reached.with(Feature::Statistics);
     let unreached: Vec<_> = Feature::ALL.iter().filter(|feature| !reached.has(**feature)).collect();
     assert!(unreached.is_empty(), "never compiled in: {unreached:?}");

@@ -1,4 +1,4 @@
-//! Promises of the formulas for every input, tried on the twins with inputs that `proptest` makes up and shrinks.
+//! Promises of the formulas for every input, tested on the twins with inputs that `proptest` generates and shrinks.
 
 use super::atrous;
 use super::bench::{Bench, Texel};
@@ -13,11 +13,11 @@ use proptest::prelude::*;
 const SIZE: [u32; 2] = [9, 9];
 const COUNT: usize = (SIZE[0] * SIZE[1]) as usize;
 
-/// A pixel of an image: colour, deviation, slope of the normal, depth. A part of the pixels sees nothing.
+/// A pixel of an image: colour, deviation, slope of the normal, depth, and true if it sees nothing.
 type Pixel = (V, f64, [f64; 2], f64, bool);
 
 fn pixel() -> impl Strategy<Value = Pixel> {
-    // From black to brighter than any renderer's light.
+    // Numbers go from black to brighter than any renderer's light.
     let number = || prop_oneof![Just(0.0), 1e-6..1e-3, 1e-3..1.0, 1.0..1e6];
     let color = [number(), number(), number()];
     let slope = [-0.3..0.3, -0.3..0.3];
@@ -28,7 +28,7 @@ fn pixels() -> impl Strategy<Value = Vec<Pixel>> {
     prop::collection::vec(pixel(), COUNT)
 }
 
-/// The taps of an image that is seen straight on.
+/// The taps of an image of a surface that faces the camera.
 fn taps(pixels: &[Pixel]) -> Vec<Texel> {
     let tap = |&(color, deviation, [x, y], depth, seen): &Pixel| {
         let [a, b] = pack_tap(color, deviation);
@@ -56,15 +56,15 @@ fn filtered(bench: &Bench, features: &[Feature], iteration: u32, image: &[Texel]
 }
 
 fn config() -> ProptestConfig {
-    // Regressions are kept as tests of their own, not as files beside the sources.
+    // Regressions become tests of their own, not files beside the sources.
     ProptestConfig { cases: 64, failure_persistence: None, ..Default::default() }
 }
 
 proptest! {
     #![proptest_config(config())]
 
-    /// A weighted mean is within the range of its terms, the fitted plane within half and one and a half of that mean; and no
-    /// weights make less noise into more.
+    /// A weighted mean is within the range of its terms, and the fitted plane is within half and one and a half of that mean. No
+    /// weights increase the noise.
     #[test]
     fn spatial_filter_stays_within_the_range_of_its_taps(
         pixels in pixels(),
@@ -105,14 +105,14 @@ proptest! {
         }
     }
 
-    /// On a wall where noise stops nothing, the kernel is the same everywhere: each pixel gains what another loses.
+    /// On a wall where noise stops no tap, the kernel is the same everywhere: each pixel gains what another one loses.
     #[test]
     fn spatial_filter_keeps_energy(lit in 0.0..1e3, full in any::<bool>()) {
         let filter = FilterSettings { sigma_luminance: 1e6, ..Default::default() };
         let bench = bench(filter);
         let wall = |color: f64| ([color; 3], 1e3, [0.0; 2], 4.0, true);
         let mut pixels = vec![wall(0.0); COUNT];
-        // A pixel that reaches the middle has all its taps.
+        // A pixel whose light reaches the middle has all its taps.
         pixels[bench.at(4, 4).unwrap()] = wall(lit);
         let image = taps(&pixels);
         let features: &[Feature] = if full { &[FullKernel] } else { &[] };
@@ -173,7 +173,7 @@ proptest! {
         prop_assert!((out.variance - variance).abs() <= 1e-3 * 100.0 * 100.0_f64.min(1.0 + variance), "{} is not {variance}", out.variance);
     }
 
-    /// A blend is within the range of the rescaled history and the sample; lengths and λ are within theirs.
+    /// A blend is within the range of the rescaled history and the sample; lengths and λ are within their own ranges.
     #[test]
     fn temporal_filter_stays_within_the_range_of_what_it_blends(alpha in 0.0..1.0_f32, power in 0.0..10.0_f32, moving in any::<bool>()) {
         let filter = FilterSettings { alpha, history_power: power, max_history: 16.0, ..Default::default() };
@@ -190,7 +190,7 @@ proptest! {
         }
     }
 
-    /// Objects are told apart and nothing else: other numbers for them, in any order, change nothing.
+    /// Only the difference between objects counts: other numbers for them, in any order, change nothing.
     #[test]
     fn order_of_objects_does_not_matter(numbers in Just([0_u32, 1, 5, 900, u32::MAX]).prop_shuffle()) {
         let features = [Feature::Objects, Feature::VarianceOfMean];

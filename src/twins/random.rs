@@ -1,4 +1,4 @@
-//! Random numbers of the tests' own (SplitMix64, Steele et al. 2014), so that every run tests the same.
+//! Random numbers for the tests (SplitMix64, Steele et al. 2014), so that every run tests the same.
 
 pub(super) struct Random(pub u64);
 

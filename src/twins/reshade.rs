@@ -8,11 +8,11 @@ use crate::Settings;
 use crate::passes::{Step, reshade};
 use crate::plan::{Feature, Features};
 
-/// Motions of the pixels, column by column.
+/// Kinds of motion of the pixels, column by column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Rests,
-    /// Rests, with the host's numbers in f16.
+    /// The point rests, and the host's numbers are in f16.
     RestsRounded,
     Moves,
 }
@@ -27,7 +27,7 @@ fn round_to_f16(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { (x / step).round() * step }
 }
 
-/// The former place of a pixel's point: image point less the pixel's, and depth.
+/// The motion of a pixel's point: its former image point less the pixel's, and its former depth.
 fn motion(bench: &Bench, x: i32, y: i32, z: f64, shift: V) -> V {
     let [jx, jy] = bench.camera.jitter.map(f64::from);
     let p = Pinhole::new(&bench.previous, bench.size).project(sub(bench.position(x, y, z), shift));
@@ -52,7 +52,7 @@ fn check(features: Features) {
         let guide_before = was.guide(&mut Random(62));
         let mut records = bench.records(&guide, &mut random);
         for (s, (x, y)) in bench.strata().into_iter().enumerate() {
-            // The same pixel saw half of the paths.
+            // Half of the paths were in the same pixel before.
             if records[s][0] != 0 && random.unit() < 0.5 {
                 let (px, py) = Bench::sample_pixel(records[s], x, y);
                 records[s][1] = px as u32 | (py as u32) << 16;
@@ -120,7 +120,7 @@ fn check(features: Features) {
             }
             let ray = was.pinhole().ray(f64::from(px) + 0.5 + jx + m[0], f64::from(py) + 0.5 + jy + m[1]);
             let expected = sub(now, add(was.pinhole().eye, scale(ray, m[2])));
-            // A move that 16 bits have made may be too small to be told from none.
+            // A move that comes from rounding to 16 bits may be indistinguishable from none.
             let least = length(expected) < 1.5e-5 * z;
             for c in 0..3 {
                 let found = float(shift[c]);

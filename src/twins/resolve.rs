@@ -9,7 +9,7 @@ use crate::Settings;
 use crate::passes::{Nth, Step, resolve};
 use crate::plan::{Feature, Features, Image};
 
-/// f16 numbers without a fraction beyond their 10 bits, as the tracer stores albedo.
+/// Numbers that f16 holds in its 10 bits, like the albedo of the tracer.
 const ALBEDOS: [(u32, f64); 4] = [(0x0000, 0.0), (0x3c00, 1.0), (0x3800, 0.5), (0x3555, 0.333_251_953_125)];
 
 fn half(bits: u32) -> f64 {

@@ -16,7 +16,7 @@ fn luminance(c: [f32; 3]) -> f64 {
     0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
-/// A picture that is brighter above, coloured, black in places, with a sun of one texel.
+/// A picture that is brighter above, coloured, and black in places, with a sun of one texel.
 fn picture(width: u32, height: u32) -> Environment {
     let texel = |i: u32| {
         let (x, y) = (i % width, i / width);
@@ -25,7 +25,7 @@ fn picture(width: u32, height: u32) -> Environment {
     };
     let mut radiance: Vec<[f32; 3]> = (0..width * height).map(texel).collect();
     let sun = height / 4 * width + width * 2 / 3;
-    // About as strong as all the rest together.
+    // The sun is about as strong as all the rest together.
     radiance[sun as usize] = [1.0, 0.9, 0.7].map(|c| c * (width * height) as f32);
     Environment { width, height, radiance }
 }
@@ -45,7 +45,7 @@ fn draw(environment: &Environment, numbers: &[[f32; 4]]) -> Vec<[[f32; 4]; 2]> {
 fn check(width: u32, height: u32) {
     let environment = picture(width, height);
     let mut random = Random(5);
-    // 24 bits, as the path tracer draws them.
+    // The numbers have 24 bits, like the path tracer's.
     let mut number = || ((random.unit() * 16_777_216.0) as u32 as f32) / 16_777_216.0;
     let numbers: Vec<[f32; 4]> = (0..SAMPLES).map(|_| [number(), number(), number(), 0.0]).collect();
     let seen: Vec<[f32; 3]> = environment.radiance.iter().map(|&c| unpack(pack(c))).collect();
@@ -54,7 +54,7 @@ fn check(width: u32, height: u32) {
     let total: f64 = (0..width * height).map(|i| luminance(seen[i as usize]) * solid_angle(i / width)).sum();
     let sun = height / 4 * width + width * 2 / 3;
 
-    // Regions of the picture, and the sun.
+    // Count the samples by regions of the picture, with the sun as its own.
     const SIDE: u32 = 8;
     let region = |i: u32| {
         if i == sun { SIDE * SIDE } else { i / width * SIDE / height * SIDE + i % width * SIDE / width }
@@ -70,7 +70,7 @@ fn check(width: u32, height: u32) {
         let (u, v) = (u * f64::from(width), v * f64::from(height));
         let texel = (v as u32).min(height - 1) * width + (u as u32).min(width - 1);
         found[region(texel) as usize] += 1.0 / SAMPLES as f64;
-        // A direction of f32 may lie on the other side of a texel's edge.
+        // A direction in f32 may lie on the other side of a texel's edge.
         let precise = 1e-6 * f64::from(width) / f64::from(x).hypot(f64::from(z)).max(1e-9);
         let near = |t: f64, precise: f64| (t - t.round()).abs() < precise;
         if near(u, precise) || near(v, precise) {
@@ -98,7 +98,7 @@ fn texels_are_chosen_by_their_light() {
 
 #[test]
 fn texels_of_pictures_with_more_texels_than_cells_too() {
-    // Runs of 2 and of 8 texels, the last ones of a row shorter.
+    // The runs have 2 and 8 texels, and the last one of a row is shorter.
     for [width, height] in [[1030, 515], [2100, 1100]] {
         check(width, height);
     }

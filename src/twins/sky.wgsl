@@ -1,4 +1,4 @@
-// Light samples for the test of the environment's.
+// Draws light samples, for the test of the environment.
 
 #import asvgf::light::sample_light
 

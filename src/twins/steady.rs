@@ -1,4 +1,4 @@
-//! The last output blended in: O = C + b·(clamp(O', lo, hi) − C).
+//! Blending with the last output: O = C + b·(clamp(O', lo, hi) − C).
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{assert_close, depth, luminance, pack_tap, radiance, unpack_normal, unpack_rgb, unpack_tap};

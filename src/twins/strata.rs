@@ -6,10 +6,10 @@ use super::plane::{V, dot, sub};
 use super::random::Random;
 use crate::plan::Grid;
 
-/// Tolerated distance from the plane, in parts of the depth.
+/// Tolerated distance from the plane, as a fraction of the depth.
 const REACH: f64 = 0.02;
 
-/// Falls off like e⁻ˣ: (1 − x/8)⁸, and 0 from 8 on.
+/// A falloff like e⁻ˣ: (1 − x/8)⁸, and 0 from 8 on.
 pub(super) fn falloff(x: f64) -> f64 {
     (1.0 - x / 8.0).max(0.0).powi(8)
 }
@@ -22,7 +22,7 @@ pub(super) struct Site {
 }
 
 impl Bench {
-    /// Records with a random sample pixel and a random previous one; some strata have none.
+    /// Records with a random sample pixel and a random previous pixel; some strata have none.
     pub fn records(&self, guide: &[[u32; 2]], random: &mut Random) -> Vec<Texel> {
         let [columns, rows] = Grid::Strata.extent(self.size).map(|s| s as i32);
         (0..columns * rows)
@@ -79,7 +79,7 @@ impl Bench {
     }
 }
 
-/// Exponent of the geometric weight: distance of a site from another's plane in parts of the reach, and the angle between
+/// Exponent of the geometric weight: the distance of a site from another's plane as a fraction of the reach, and the angle between
 /// their normals.
 pub(super) fn exponent(here: &Site, there: &Site, depth: f64) -> f64 {
     let distance = dot(here.normal, sub(there.position, here.position)).abs();

@@ -12,7 +12,7 @@ use crate::passes::{Nth, Step, temporal};
 use crate::plan::{Feature, Image};
 use crate::{FilterSettings, Settings};
 
-/// A pixel by the formulas.
+/// A pixel's result by the formulas.
 #[derive(Debug, Default)]
 pub(super) struct Blended {
     pub(super) color: V,
@@ -27,7 +27,7 @@ pub(super) struct Blended {
     steadiness: f64,
     /// True if the sample is not wholly believed.
     outlier: bool,
-    /// True if a threshold was so near that rounding may decide otherwise.
+    /// True if a threshold was so near that rounding may decide differently.
     unsure: bool,
     /// The largest numbers that went in; errors are relative to these.
     largest: f64,
@@ -39,7 +39,7 @@ impl Given {
         self.bench.run(&step, &self.inputs(&step))
     }
 
-    /// Ratio and λ of the strata around a pixel on its surface: of the 2×2, or else of the 4×4.
+    /// Ratio and λ of the strata around a pixel on its surface: from 2×2 of them, or else from 4×4.
     fn change(&self, i: usize, x: i32, y: i32, unsure: &mut bool) -> ([f64; 4], f64) {
         let z = depth(self.guide[i]);
         let here = Site { position: self.bench.position(x, y, z), normal: unpack_normal(self.guide[i][0]), depth: z };
@@ -119,7 +119,7 @@ impl Given {
             .has(Feature::Outliers)
             .then(|| self.belief([x, y], l, [level[0], level[1], out.lambda], &mut out.unsure));
         if let Some(belief) = belief {
-            // Without a history: the sample as far as it is believed, the rest as bright as the pixels around.
+            // Without a history, the result is the sample as far as it is believed; the rest is as bright as the pixels around.
             let doubted = belief.around.min(l) / l.max(1e-37);
             let first = belief.weight * belief.scale + (1.0 - belief.weight) * doubted;
             out.color = scale(sample, first);
@@ -129,7 +129,7 @@ impl Given {
             l *= belief.scale;
         }
         let Some(mut before) = before else { return out };
-        // The history of a still image may be longer than others are allowed to be.
+        // The history of a still image may be longer than other histories.
         let mut kept = before.length.min(f.max_history.into());
         let mut rescaled = 1.0;
         out.last_output = before.output;
@@ -157,7 +157,7 @@ impl Given {
             least.max(1.0 / out.length)
         };
         if alpha > 1.0 / out.length {
-            // The effective number of samples: 1/Σw² of weights that add up to 1.
+            // The effective number of samples is 1/Σw², for weights that add up to 1.
             let worth = 1.0 / ((1.0 - alpha).powi(2) / kept.max(1e-9) + alpha.powi(2));
             out.length = worth.min(f.max_history.into());
         }
@@ -181,7 +181,7 @@ impl Given {
             out.length = if trusted > 0.5 { trusted.max(1.0) } else { 0.0 };
         }
         out.alpha = alpha;
-        // Weight by the k frames before this one; 0 where the light changes, and less between pixels.
+        // The weight depends on the k frames before this one; it is 0 where the light changes, and smaller between pixels.
         let k = (out.length - 1.0).max(0.0);
         let f = if self.has(Feature::Still) { [0.0; 2] } else { [0, 1].map(|a| self.motion[i][a].rem_euclid(1.0)) };
         let between = 2.0 * f.iter().map(|f| f * (1.0 - f)).sum::<f64>();
@@ -250,7 +250,7 @@ fn check(features: &[Feature], settings: &Settings) {
                 continue;
             }
             followed += usize::from(expected.length > 1.0);
-            // Weights between strata are known to 1e-4, and with them λ, which a power of up to ten multiplies.
+            // Weights between strata are precise to 1e-4, and so is λ; a power of up to ten multiplies that error.
             let tolerance = 2e-3 * expected.largest + 1e-30;
             let mut color = expected.color;
             if given.has(Feature::Feedback) {
@@ -278,7 +278,7 @@ fn check(features: &[Feature], settings: &Settings) {
     assert!(unsure * 10 <= compared && followed * 4 >= compared, "{features:?}: the test has lost its grip");
 }
 
-/// Asserts that an expected number, give or take some, was rounded as it had to be.
+/// Asserts that a number was rounded correctly, given the expected number and its tolerance.
 fn assert_kept(words: [u32; 2], expected: &Blended, color: V, tolerance: f64, random: V, what: &dyn Fn() -> String) {
     let bits = u64::from(words[0]) | u64::from(words[1]) << 32;
     let field = |shift: u32, width: u32| (bits >> shift & ((1 << width) - 1)) as f64;
@@ -324,21 +324,21 @@ fn every_reachable_kind_of_blending() {
     check(&[Gradient, InPlace, HistoryRatio], &power(3.5));
     check(&[Gradient, InPlace, BlendByLambda, Feedback], &power(2.0));
     check(&[Gradient, InPlace, HistoryRatio, BlendByLambda, Feedback, Objects], &power(0.0));
-    // Steadied by the last output.
+    // Steadiness by the last output.
     check(&[Steady, Objects], &power(3.5));
     check(&[Steady, Still], &power(3.5));
     check(&[Steady, Gradient, InPlace, AcrossSurfaces, HistoryRatio], &power(3.5));
     check(&[Steady, MissingSamples, ExternalLambda], &power(3.5));
-    // With samples that are not believed.
+    // Samples that are not believed.
     check(&[Outliers, KeepWeights], &power(3.5));
     check(&[Outliers, Steady, Still, MissingSamples], &power(3.5));
     check(&[Outliers, Steady, Gradient, InPlace, AcrossSurfaces, HistoryRatio, KeepWeights], &power(3.5));
     check(&[Outliers, ExternalLambda, MissingSamples, KeepWeights], &power(3.5));
-    // For views.
+    // Weights that are kept for views.
     check(&[Gradient, InPlace, AcrossSurfaces, HistoryRatio, KeepWeights], &power(3.5));
     check(&[Gradient, InPlace, BlendByLambda, Feedback, KeepWeights], &power(2.0));
     check(&[Still, BlendByLambda, Feedback, KeepWeights], &power(2.0));
-    // A host's.
+    // A host's frames.
     check(&[MissingSamples, Objects], &power(3.5));
     check(&[MissingSamples, Still, Feedback], &power(3.5));
     check(&[MissingSamples, Gradient, InPlace, HistoryRatio, KeepWeights], &power(3.5));

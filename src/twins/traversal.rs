@@ -1,4 +1,4 @@
-//! The traversal against obvhs' own on the CPU, over world-space triangles that this test gathers itself.
+//! The traversal against that of obvhs on the CPU, over world-space triangles that this test gathers itself.
 
 use super::gpu::gpu;
 use super::random::Random;
@@ -18,10 +18,10 @@ const RAYS: usize = 100_000;
 /// Relative tolerance of distances: f32 intersections in object space against others in world space.
 const DISTANCE: f64 = 1e-4;
 
-/// Tolerance in parts of the scene's size, because positions are rounded before their small differences are taken.
+/// Tolerance as a fraction of the scene's size, because positions are rounded before their small differences are taken.
 const POSITION: f64 = 3e-6;
 
-/// Distance from an edge, in barycentric weights, within which rounding decides what a ray meets.
+/// Distance from an edge, in barycentric weights, within which rounding decides if a ray hits.
 const EDGE: f64 = 1e-4;
 
 struct Query {
@@ -45,7 +45,7 @@ struct Answer {
     distance: Option<f64>,
     occluded: bool,
     weights: [f64; 2],
-    /// Three times the centre of the triangle, which names it whatever its number.
+    /// Three times the centre of the triangle, which identifies it independently of its number.
     corners: DVec3,
 }
 
@@ -91,7 +91,7 @@ fn meet(query: &Query, [a, b, c]: &[DVec3; 3]) -> Option<(f64, [f64; 2])> {
     (distance > 0.0).then_some((distance, [s.dot(p) / determinant, query.direction.dot(q) / determinant]))
 }
 
-/// All that a ray may meet, edges included, nearest first.
+/// All hits of a ray, edges included, nearest first.
 fn all_hits(query: &Query, triangles: &[[DVec3; 3]]) -> Vec<Truth> {
     let mut hits: Vec<Truth> = triangles
         .iter()
@@ -103,7 +103,7 @@ fn all_hits(query: &Query, triangles: &[[DVec3; 3]]) -> Vec<Truth> {
     hits
 }
 
-/// Random rays about a scene: some along the axes, some unnormalised as a camera's are.
+/// Random rays about a scene: some along the axes, some unnormalised like a camera's.
 fn queries(triangles: &[[DVec3; 3]]) -> Vec<Query> {
     let points = || triangles.iter().flatten();
     let low = points().fold(DVec3::INFINITY, |m, &p| m.min(p)).min(DVec3::ZERO);
@@ -120,7 +120,7 @@ fn queries(triangles: &[[DVec3; 3]]) -> Vec<Query> {
                 _ => random.direction().into(),
             };
             let limit = random.between(0.0, (high - low).length());
-            // The query is the one that the GPU is given.
+            // The query has the precision of the GPU's.
             let narrow = |v: DVec3| v.as_vec3().as_dvec3();
             let size = (high - low).length() / direction.length();
             Query { origin: narrow(origin), direction: narrow(direction), limit: f64::from(limit as f32), size }
@@ -214,7 +214,7 @@ fn ask_obvhs(bvh: &Bvh2, triangles: &[Triangle], query: &Query) -> Option<(usize
     (hit.primitive_id != ray::INVALID_ID).then(|| (primitive(hit.primitive_id as usize), f64::from(hit.t)))
 }
 
-/// Asserts that an answer is right to within rounding: the named triangle is there, and none surely lies before it.
+/// Asserts that an answer is right up to rounding: the named triangle is there, and none is surely before it.
 fn assert_right(query: &Query, answer: &Answer, triangles: &[[DVec3; 3]], what: &str) {
     let hits = all_hits(query, triangles);
     let sure = hits.iter().find(|h| h.margin() > EDGE).map_or(f64::INFINITY, |h| h.distance);
@@ -280,7 +280,7 @@ fn compare(
             let [u, v] = answer.weights;
             assert!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 + 1e-6, "{what}: weights {u}, {v}");
         }
-        // Any hit is one before the limit, unless that is where the nearest one lies.
+        // The any-hit query finds a hit before its limit, unless the nearest hit is at the limit.
         let distance = answer.distance.unwrap_or(f64::INFINITY);
         let undecided = (distance - query.limit).abs() <= query.tolerance(query.limit);
         assert!(

@@ -1,4 +1,4 @@
-// Rays through a scene, for the test of the traversal.
+// Sends rays through a scene, for the test of the traversal.
 
 #import asvgf::ray::Ray
 #ifdef FEW_TRIANGLES

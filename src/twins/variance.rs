@@ -1,5 +1,5 @@
-//! The spatial filter's input: the colour, and the deviation of a mean; short histories take it from 7×7 neighbours on the
-//! same surface.
+//! The spatial filter's input: the colour, and the deviation of a mean; short histories take the deviation from 7×7 neighbours on
+//! the same surface.
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
@@ -17,7 +17,7 @@ fn kept(texel: Texel) -> Kept {
     unpack_history([texel[0], texel[1]])
 }
 
-/// A pixel with a history, `offset` away on a pixel's surface, and its weight.
+/// A pixel with a history, `offset` away on the same surface, and its weight.
 fn neighbour(
     bench: &Bench,
     guide: &[[u32; 2]],
@@ -34,7 +34,7 @@ fn neighbour(
     Some((q, falloff(exponent)))
 }
 
-/// Fills a pixel without a history: the mean over neighbours of its surface, its deviation, and the greatest square of a
+/// Fills a pixel without a history: the mean over neighbours of its surface, the mean's deviation, and the greatest square of a
 /// luminance.
 fn fill(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], colors: &[V], x: i32, y: i32) -> (V, f64, f64) {
     let (mut sum, mut square, mut weights, mut squares) = ([0.0; 3], 0.0, 0.0, 0.0);
@@ -59,9 +59,9 @@ fn fill(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], colors: &[V], x: i
     (mean, variance.sqrt(), squares)
 }
 
-/// The deviation of noise that never changes, as triples of neighbours in the 3×3 around a pixel show it, and the greatest
-/// square of a luminance. Each of four directions gives its mean, at most twenty times its fourth largest triple; the least
-/// of the four counts.
+/// The deviation of noise that never changes, from triples of neighbours in the 3×3 around a pixel, and the greatest square of a
+/// luminance. Each of four directions gives the mean of its triples, at most twenty times the fourth largest of them; the least of
+/// the four counts.
 fn bends(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
     let mut squares = 0.0;
     // The triples stay within the image.
@@ -88,7 +88,7 @@ fn bends(bench: &Bench, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -
     ((4.0 / 0.6 * least).sqrt(), squares)
 }
 
-/// The standard deviation that steers the luminance stop, and the scale of the numbers that it is a difference of.
+/// The standard deviation that steers the luminance stop, and the scale of the numbers whose difference it is.
 fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel], x: i32, y: i32) -> (f64, f64) {
     let i = bench.at(x, y).unwrap();
     let n = kept(history[i]).length;
@@ -102,7 +102,7 @@ fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel]
         return (steady.0.max(floor), steady.1.max(squares));
     }
     if n >= 4.0 {
-        // With Bessel's correction while n is below 8.
+        // Apply Bessel's correction while n is below 8.
         let bessel = if n < 8.0 { n / (n - 1.0) } else { 1.0 };
         return (if of_mean { own * bessel / n } else { own }.sqrt(), 0.0);
     }
@@ -117,7 +117,7 @@ fn twin(bench: &Bench, features: Features, guide: &[[u32; 2]], history: &[Texel]
         squares = f64::max(squares, second_moment);
         weights += w;
     }
-    // E[m₂] − E[m]², where the second moments are the neighbours' own, times 4/n.
+    // The variance is E[m₂] − E[m]² with the neighbours' own second moments, times 4/n.
     let spatial = (second / weights - (first / weights).powi(2)).max(0.0) * (4.0 / n).max(1.0);
     if !of_mean {
         return (spatial.sqrt(), squares);
@@ -138,7 +138,7 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
         &[VarianceOfMean, MissingSamples, RepeatedNoise],
         &[MissingSamples, RepeatedNoise, Feedback],
     ];
-    // With fireflies (10⁵) and without: beside a firefly, nothing else counts.
+    // One run has fireflies (10⁵): beside a firefly, nothing else counts. The other has none.
     for ((features, size), brightest) in
         sets.into_iter().flat_map(|f| SIZES.map(|s| (f, s))).flat_map(|c| [(c, 1.0), (c, 1e9)])
     {
@@ -152,7 +152,7 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
             }
             match if step.features.has(MissingSamples) { random.below(10) } else { 10 } {
                 0 | 1 => return [0; 4],
-                // Infinite.
+                // The radiance is infinite.
                 2 => {
                     let [a, b] = pack_history(Kept { color: [65504.0; 3], variance: 0.0, length: 0.0 });
                     return [a, b, 0, 0];
@@ -160,10 +160,10 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
                 _ => {}
             }
             let length = [1.0, 1.5, 2.0, 3.0, 3.75, 4.0, 6.0, 20.0][random.below(8)];
-            // The same radiance in every frame.
+            // The radiance is the same in every frame.
             let still = step.features.has(RepeatedNoise) && random.below(2) == 0;
             let color = radiance(random).map(|c| c.min(brightest));
-            // Fed by the spatial filter, the history has the mean luminance in the colour's place.
+            // If the spatial filter feeds the history, the mean luminance is in the colour's place.
             let color = if step.features.has(Feedback) { [luminance(color); 3] } else { color };
             let variance = if still { 0.0 } else { random.unit() * luminance(color).powi(2) };
             let [a, b] = pack_history(Kept { color, variance, length });
@@ -217,8 +217,8 @@ fn the_filter_starts_from_the_history_and_short_ones_take_their_neighbours_varia
                 assert_close(found, expected, expected * 2.0_f64.powi(-11) + 1e-9, || format!("{}: colour", what()));
             }
             let (expected, squares) = twin(&bench, step.features, &guide, &history, x, y);
-            // Results are stored to 2⁻¹², and not below 2⁻³⁰. A neighbour of weight e⁻⁸ may be cut or not. A difference of
-            // squares is as exact as the squares.
+            // Results are stored to 2⁻¹², and not below 2⁻³⁰. A neighbour of weight e⁻⁸ may be cut or not. A difference of squares
+            // is as precise as the squares.
             let error = (deviation.powi(2) - expected.powi(2)).abs();
             let allowed = 2e-3 * expected.powi(2) + 1e-3 * squares + 1e-18;
             assert!(error <= allowed, "{}: deviation {deviation}, not {expected} (squares up to {squares})", what());
