@@ -2,11 +2,11 @@
 //! shaders on [`wgpu`].
 //!
 //! A [`Denoiser`] holds the pipelines and the history of one view. It filters the frames of the host's own renderer, in two
-//! calls a frame ([`Denoiser::begin_frame`], [`Denoiser::denoise`]), or those that it traces itself of a `scene::GpuScene`. Both
-//! record into the host's encoder and never submit, wait, print or own the device. A device with `Limits::default()` and no
-//! features is enough.
+//! calls a frame ([`Denoiser::begin_frame`], [`Denoiser::denoise`]), or traces a `scene::GpuScene` itself. Both kinds of frames are
+//! recorded into the host's encoder. The denoiser never submits, waits, prints or owns the device. A device with
+//! `Limits::default()` and no features is enough.
 //!
-//! With a renderer of one's own:
+//! A frame of a host's renderer:
 //! ```no_run
 //! use asvgf::{Denoiser, Error, Matrices, Shading, Surfaces, wgpu};
 //!
@@ -22,8 +22,8 @@
 //!     trace: impl FnOnce(&mut wgpu::CommandEncoder, Option<asvgf::Reshade>),
 //! ) -> Result<(), Error> {
 //!     let surfaces = Surfaces::new(camera, index, &images.depth, &images.normal, &images.motion);
-//!     // With `Gradient::Reshade` one pixel of each 3×3 is to repeat a path of the last frame: `RESHADE_WGSL` tells the host's
-//!     // shader which. By default α adapts to what the image alone shows, and this is `None`.
+//!     // With `Gradient::Reshade`, `RESHADE_WGSL` tells the host's shader which pixel of each 3×3 repeats a path of the last
+//!     // frame. By default α adapts to the image alone, and this is `None`.
 //!     let reshade = denoiser.begin_frame(device, encoder, &surfaces)?;
 //!     trace(encoder, reshade);
 //!     let shading = Shading { albedo: Some(&images.albedo), ..Shading::new(&images.radiance, &images.target) };
@@ -60,12 +60,11 @@ fn frames(
 )]
 //!
 //! # Conventions
-//! Linear Rec. 709 radiance; pixels from the upper left, x right, y down; linear depth along the view; motion is previous −
-//! current position in pixels, without the jitter. The path tracer's world is right-handed, +Y up, in metres; a host's may be any.
-//!
+//! Radiance is linear Rec. 709. Pixels count from the upper left, x right, y down. Depth is linear along the view. Motion is previous
+//! − current position in pixels, without the jitter. The path tracer's world is right-handed, +Y up, in metres; a host's may be any.
 //! # Versions
-//! Structs that a host fills in have public fields, and minor versions add some. End each literal with `..Default::default()`, or with
-//! a constructor where fields have no default:
+//! Structs that a host fills in have public fields, and minor versions add some. End each literal with `..Default::default()`, or
+//! with a constructor if fields have no default:
 //! ```
 //! # use asvgf::{FilterSettings, Settings, Shading, wgpu};
 //! # fn shading<'a>(radiance: &'a wgpu::TextureView, target: &'a wgpu::TextureView, albedo: &'a wgpu::TextureView) {
@@ -81,7 +80,7 @@ fn frames(
 
 pub use wgpu;
 
-// Helpers in tests/ that unit tests share with integration tests know the crate by its name.
+// Unit tests and integration tests share helpers in tests/, which know the crate by its name.
 #[cfg(test)]
 extern crate self as asvgf;
 
@@ -124,12 +123,12 @@ pub use settings::{
 pub use settings::{Sampling, TracerSettings};
 pub use view::{View, ViewOptions};
 
-/// WGSL for a host's own shader, for [`Gradient::Reshade`]: `asvgf_surface(frame, guide, repeats, shifts, pixel)` returns an
-/// `AsvgfSurface`: which point to shade in a pixel, and which pixel and frame to seed the random numbers from. It declares no
-/// bindings; bind [`Reshade`]'s four where you like, as `var<uniform> …: AsvgfFrame` and three `texture_2d<u32>`.
+/// WGSL for a host's own shader, for [`Gradient::Reshade`]. `asvgf_surface(frame, guide, repeats, shifts, pixel)` returns an
+/// `AsvgfSurface`: the point to shade in a pixel, and the pixel and frame to seed the random numbers from. It declares no
+/// bindings; bind [`Reshade`]'s four anywhere, as `var<uniform> …: AsvgfFrame` and three `texture_2d<u32>`.
 pub const RESHADE_WGSL: &str = include_str!("../shaders/host/reshade.wgsl");
 
-/// A host may record in any thread (in browsers GPU objects belong to one).
+/// Asserts that a host may record in any thread (in browsers, GPU objects belong to one).
 #[cfg(not(target_arch = "wasm32"))]
 const _: () = {
     const fn shared<T: Send + Sync>() {}

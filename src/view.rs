@@ -5,7 +5,7 @@ use crate::listed::listed;
 listed! {
     /// An intermediate image of the last frame, for [`Denoiser::show`](crate::Denoiser::show).
     ///
-    /// In an `rgba32float` or `rgba16float` target each shows its numbers, as listed, with alpha 1; in an `rgba8unorm` one a
+    /// An `rgba32float` or `rgba16float` target receives the numbers in the list, with alpha 1; an `rgba8unorm` target receives a
     /// picture (sRGB-encoded).
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
     #[non_exhaustive]
@@ -22,41 +22,43 @@ listed! {
         Depth = "depth",
         /// Number of the triangle: low 16 bits in red, high 16 in green; blue is 0 where nothing was hit. Picture: one colour each.
         TriangleId = "triangle-id",
-        /// Previous − current position in pixels in red and green, in steps of 1/256 (−10⁶ if the point was nowhere), the point's previous depth in
-        /// blue. Picture: grey is no motion.
+        /// Previous − current position in pixels in red and green, in steps of 1/256 (−10⁶ if the point was nowhere), and the point's
+        /// previous depth in blue. Picture: grey is no motion.
         Motion = "motion",
         /// λ of each stratum before interpolation, 0…1.
         Gradient = "gradient",
-        /// λ of each pixel, 0…1, a host's own too; 0 where there was no history to shorten. Needs
+        /// λ of each pixel, 0…1, also if it is a host's; 0 where there was no history to shorten. Needs
         /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
         Lambda = "lambda",
-        /// Weight of the new sample, 0…1, as it was blended: 1 where there was no history, λ where the sample repeats a path, 0 where there
-        /// is none. Needs [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+        /// Blending weight of the new sample, 0…1: 1 where there was no history, λ where the sample repeats a path, 0 where there is no
+        /// sample. Needs [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
         Alpha = "alpha",
-        /// History length in frames. Lengths beyond 32 are rounded at random, and right on average. Picture: white at [`ViewOptions::range`].
+        /// History length in frames. Lengths beyond 32 are rounded at random; their mean is right. Picture: white at
+        /// [`ViewOptions::range`].
         HistoryLength = "history-length",
         /// Variance of a sample's demodulated luminance. Picture: logarithmic in its root.
         Variance = "variance",
         /// 1 where the filtered image is not finite.
         NonFinite = "non-finite",
-        /// Rays that the pixel cost in this frame, shadow rays and the primary one included; exact to 2048. Picture: white at
+        /// Number of rays for the pixel in this frame, with shadow rays and the primary one; exact up to 2048. Picture: white at
         /// [`ViewOptions::range`].
         Rays = "rays",
         /// The host's motion less the motion that depth and both cameras imply for a point at rest: pixels in red and green, the
-        /// difference of the previous depths in blue. It is within 1/512 pixel of zero except on objects that move. If the whole image changes with the camera, a
-        /// sign, a unit or a matrix is wrong. Picture: grey is none.
+        /// difference of the previous depths in blue. It is within 1/512 pixel of zero except on objects that move. If the whole image
+        /// changes with the camera, a sign, a unit or a matrix is wrong. Picture: grey is no difference.
         MotionError = "motion-error",
         /// Linear radiance that the visible surface or the sky emits towards the eye. Picture: tone-mapped.
         Emission = "emission",
         /// Number of the object that was hit, or of nothing: low 16 bits in red, high 16 in green. Picture: one colour each.
         Object = "object",
-        /// Radiance that the gradient's paths reflect now, times the albedo, in the pixels where these paths are; −1 elsewhere. Picture: tone-mapped.
+        /// Radiance that the gradient's paths reflect now, times the albedo, in the pixels of these paths; −1 elsewhere. Picture:
+        /// tone-mapped.
         PairNow = "pair-now",
-        /// Radiance that the same paths reflected in the last frame, likewise.
+        /// Radiance that the same paths reflected in the last frame, in the same form.
         PairBefore = "pair-before",
         /// Mean of the frames so far, in [`Mode::Reference`](crate::Mode::Reference): linear radiance. Picture: tone-mapped.
         Mean = "mean",
-        /// 1 where the pixel's sample is far brighter than its surroundings and is not believed, or not wholly, see
+        /// 1 where the pixel's sample is far brighter than its surroundings and has less than its full weight, see
         /// [`FilterSettings::outlier_limit`](crate::FilterSettings::outlier_limit); 0 elsewhere. Needs
         /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
         Outliers = "outliers",
@@ -81,7 +83,7 @@ impl View {
 pub struct ViewOptions {
     /// Factor on radiance before tone mapping, and on the variance's root.
     pub exposure: f32,
-    /// The depth that is shown grey, the pixels of motion that are shown in full colour, or the frames of history that are shown white.
+    /// The depth that is shown grey, the motion in pixels that is shown in full colour, or the history length that is shown white.
     pub range: f32,
 }
 

@@ -13,11 +13,11 @@ use wgpu::{CommandEncoder, Device, TextureFormat};
 
 impl Denoiser {
     /// Records the first half of a host's frame: takes its surfaces, and with [`Gradient::Reshade`] returns the paths of the last frame
-    /// to repeat (`None` with the other gradients). Then trace, in the same encoder or a later one, and call
+    /// to repeat (`None` with the other gradients). The host then traces, in the same encoder or a later one, and calls
     /// [`Denoiser::denoise`]. A second call before that begins the same frame anew.
     ///
     /// # Errors
-    /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
+    /// Names the wrong view, camera or setting. Nothing is recorded then, and the history stays.
     pub fn begin_frame(
         &mut self,
         device: &Device,
@@ -30,8 +30,8 @@ impl Denoiser {
     /// Records the second half of a host's frame: takes the light, filters, and writes linear radiance into the target.
     ///
     /// # Errors
-    /// Names the view or setting that is wrong, [`Error::NotBegun`] without a [`Denoiser::begin_frame`]; nothing is recorded then,
-    /// the history stays, and it may be called again.
+    /// Names the wrong view or setting; [`Error::NotBegun`] without a [`Denoiser::begin_frame`]. Nothing is recorded then, the history
+    /// stays, and the host may call it again.
     pub fn denoise(
         &mut self,
         device: &Device,
@@ -46,7 +46,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
     /// [`Denoiser::begin_frame`], pass by pass.
     ///
     /// # Errors
-    /// As [`Denoiser::begin_frame`].
+    /// The same as for [`Denoiser::begin_frame`].
     pub fn begin_frame(
         &mut self,
         device: &Device,
@@ -66,7 +66,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         let index = surfaces.index;
         let identity = Identity { index, camera, source: Source::Host };
 
-        // The light's views change neither this half nor which of its images outlive the frame.
+        // The light's views decide neither this half nor which of its images outlive the frame.
         let most_bits = TextureFormat::Rgba32Float;
         let planned = |inputs: &HostInputs, changes| Plan::hosted(inputs, settings, changes, most_bits);
         let most = recorder.adapt(planned(&inputs, Changes::ANY));
@@ -88,7 +88,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
             converges: plan.converges(),
         };
         let uniform = recorder.uniform(device, settings, &moment, &[]);
-        // If the light comes in the target's texture, it is copied; pairs may come or not: no frame has more passes.
+        // The longest frame: light in the target's texture is copied, and pairs may add passes.
         let passes = [false, true].map(|pairs| {
             let copied = HostInputs { in_target: true, pairs, ..inputs };
             planned(&copied, changes).steps.len()
@@ -117,7 +117,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
     /// [`Denoiser::denoise`], pass by pass.
     ///
     /// # Errors
-    /// As [`Denoiser::denoise`].
+    /// The same as for [`Denoiser::denoise`].
     pub fn denoise(
         &mut self,
         device: &Device,
@@ -143,7 +143,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         };
         let Some(begun) = denoiser.history.take_begun() else { return Err(Error::NotBegun) };
         let Begun { identity, mut moment, motion, mut recording, .. } = begun;
-        // An image that the last frame did not have (an albedo, say) has nothing to compare with.
+        // A new image (an albedo, say) has nothing to compare with, because the last frame lacked it.
         let same_light = denoiser.history.last().is_some_and(|last| last.light == Some(light));
         let lost = !same_light || !denoiser.recorder.textures.has_all_before(&plan);
         let recorder = &mut denoiser.recorder;

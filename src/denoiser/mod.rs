@@ -27,16 +27,16 @@ pub struct DenoiserDescriptor {
     pub size: [u32; 2],
     /// The settings to start with.
     pub settings: Settings,
-    /// Measure each pass on the GPU; needs [`wgpu::Features::TIMESTAMP_QUERY`] on the device.
+    /// True to measure each pass on the GPU; needs [`wgpu::Features::TIMESTAMP_QUERY`] on the device.
     pub timing: bool,
-    /// Count the pixels of a host's frames that have to be cleaned, for [`Denoiser::take_counts`].
+    /// True to count the pixels of a host's frames that have to be cleaned, for [`Denoiser::take_counts`].
     pub diagnostics: bool,
-    /// Keep every intermediate image until the next frame, so that [`Denoiser::show`] can show any. This costs memory: without it, an
-    /// image that is no longer read gives its texture to another.
+    /// True to keep every intermediate image until the next frame, so that [`Denoiser::show`] can show any. This costs memory: without
+    /// it, an image that is no longer read gives its texture to another.
     pub views: bool,
     /// The extent to which shaders are specialized.
     pub specialize: Specialize,
-    /// Another denoiser's [`Denoiser::pipelines`], to share compiled shaders; it must be of the same device.
+    /// Another denoiser's [`Denoiser::pipelines`], to share compiled shaders. Both must be of the same device.
     pub pipelines: Option<Pipelines>,
 }
 
@@ -64,8 +64,8 @@ pub struct Requirements {
     pub limits: Limits,
 }
 
-/// Turns noisy samples into clean frames: those of the host's own renderer, in two calls a frame
-/// ([`Denoiser::begin_frame`], [`Denoiser::denoise`]), or of a `GpuScene` that it traces itself (`render`).
+/// Turns noisy samples into clean frames. The samples come from the host's own renderer, in two calls a frame
+/// ([`Denoiser::begin_frame`], [`Denoiser::denoise`]), or from a `GpuScene` that the denoiser traces itself (`render`).
 ///
 /// It records into the host's encoder and never submits, waits or prints. Several frames, or several denoisers, may be
 /// recorded into one encoder. History lives in the denoiser; use one per view. A traced frame and a host's do not share it.
@@ -122,8 +122,8 @@ impl Denoiser {
         })
     }
 
-    /// Compiles ahead what a host's frames may need, so that none of them has to wait: `inputs` describes its views, and `target` is the
-    /// format of [`Shading::target`](crate::Shading::target). May take seconds.
+    /// Compiles ahead the shaders that a host's frames may need, so that none of them has to wait: `inputs` describes its views, and
+    /// `target` is the format of [`Shading::target`](crate::Shading::target). May take seconds.
     ///
     /// # Errors
     /// [`Error::Shader`], which is a defect of this crate.
@@ -201,19 +201,19 @@ impl Denoiser {
         self.history.last().map(|last| &last.plan)
     }
 
-    /// GPU times of the oldest finished frame that was not taken yet; `None` while there is none. Never waits: poll the device
+    /// Takes the GPU times of the oldest finished frame that was not taken yet; `None` if there is none. Never waits: poll the device
     /// as usual.
     pub fn take_times(&mut self) -> Option<FrameTimes> {
         self.recorder.timing.as_ref()?.take()
     }
 
-    /// Counts of the input that had to be cleaned in the oldest finished frame that was not taken yet; `None` while there is none, and
-    /// always without [`DenoiserDescriptor::diagnostics`]. Never waits: poll the device as usual.
+    /// Takes the counts of cleaned input in the oldest finished frame that was not taken yet. `None` if there is none, and always
+    /// without [`DenoiserDescriptor::diagnostics`]. Never waits: poll the device as usual.
     pub fn take_counts(&mut self) -> Option<InputCounts> {
         self.recorder.counters.as_ref()?.take()
     }
 
-    /// The changes that plans of one kind of frame differ by.
+    /// The changes in which plans of one kind of frame differ.
     fn every_change(&self) -> &'static [Changes] {
         match self.specialize {
             Specialize::Exactly => &[Changes::ANY, Changes { camera: true, scene: false }, Changes::NONE],
@@ -221,7 +221,7 @@ impl Denoiser {
         }
     }
 
-    /// The changes that a frame's plan allows for. Where no last frame is known, anything may have changed.
+    /// The changes that a frame's plan allows for. If no last frame is known, anything may have changed.
     fn changes(&self, known: Option<Changes>) -> Changes {
         match self.specialize {
             Specialize::Exactly => known.unwrap_or_default(),
@@ -229,7 +229,7 @@ impl Denoiser {
         }
     }
 
-    /// Forgets a frame that was begun and not denoised: its images are the next frame's to write.
+    /// Forgets a frame that was begun and not denoised, because the next frame may write its images.
     fn abandon(&mut self) {
         if self.history.take_begun().is_some() {
             self.recorder.textures.abandon();

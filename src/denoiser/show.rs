@@ -1,4 +1,4 @@
-//! Intermediate images of the last frame, shown.
+//! Display of the last frame's intermediate images.
 
 use super::Denoiser;
 use crate::frame::Resources;
@@ -12,7 +12,7 @@ impl Denoiser {
     /// numbers or into an `rgba8unorm` view as a picture.
     ///
     /// # Errors
-    /// [`Error::NoView`] where the last frame did not make it, or the fault of the target.
+    /// [`Error::NoView`] if the last frame did not make it, or the fault of the target.
     pub fn show(
         &mut self,
         device: &Device,
@@ -25,7 +25,7 @@ impl Denoiser {
         let accepted = [TextureFormat::Rgba32Float, TextureFormat::Rgba16Float, TextureFormat::Rgba8Unorm];
         let format = host::target(target, recorder.size, &accepted)?;
         let Some(last) = self.history.last() else {
-            return Err(Error::NoView { view, reason: "no frame was rendered yet" });
+            return Err(Error::NoView { view, reason: "no frame has been rendered yet" });
         };
         if !recorder.textures.is_complete() {
             let reason = "a frame was begun, in the place of the last one's images, and not finished: finish one first";

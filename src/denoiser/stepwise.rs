@@ -1,10 +1,10 @@
-//! A frame recorded pass by pass, under the host's eyes.
+//! Recording of a frame pass by pass, with a call to the host after each.
 
 use super::Denoiser;
 use crate::Pass;
 use wgpu::CommandEncoder;
 
-/// A [`Denoiser`] that calls the host after each pass it records, see [`Denoiser::stepwise`].
+/// A [`Denoiser`] that calls the host after each pass that it records, see [`Denoiser::stepwise`].
 #[derive(Debug)]
 pub struct Stepwise<'a, F> {
     pub(super) denoiser: &'a mut Denoiser,
@@ -12,11 +12,11 @@ pub struct Stepwise<'a, F> {
 }
 
 impl Denoiser {
-    /// The same denoiser, which calls `after` behind each pass that it records. The host may put another encoder in the place of the
-    /// one that it is handed, and submit what was recorded so far.
+    /// The same denoiser, which calls `after` behind each pass that it records. The host may replace the encoder that it gets with
+    /// another one, and submit the commands so far.
     ///
-    /// That is how to time passes on an adapter without (honest) timestamps, and how to divide a long frame where a system times what
-    /// is submitted:
+    /// Use it to time passes on an adapter without (honest) timestamps, or to divide a long frame on a system that limits the time of a
+    /// submission:
     /// ```no_run
     /// # fn record(denoiser: &mut asvgf::Denoiser, device: &asvgf::wgpu::Device, queue: &asvgf::wgpu::Queue,
     /// #     mut encoder: asvgf::wgpu::CommandEncoder, shading: &asvgf::Shading<'_>) -> Result<(), asvgf::Error> {

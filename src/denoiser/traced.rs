@@ -19,8 +19,8 @@ pub struct Frame<'a> {
     pub scene: &'a GpuScene,
     /// The viewpoint.
     pub camera: Camera,
-    /// Number of the frame. With the pixel it decides all random numbers. It should grow by one per frame: any other step starts a new
-    /// history, in every mode.
+    /// Number of the frame. It decides all random numbers, together with the pixel. It should grow by one per frame: any other step
+    /// starts a new history, in every mode.
     pub index: u32,
     /// The view that receives linear radiance: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
     pub target: &'a TextureView,
@@ -50,10 +50,10 @@ impl Denoiser {
     /// Records one frame: traces the scene, filters, and writes linear radiance into the target.
     ///
     /// # Errors
-    /// Names the view, camera or setting that is wrong; nothing is recorded then, and the history stays.
+    /// Names the wrong view, camera or setting. Nothing is recorded then, and the history stays.
     pub fn render(&mut self, device: &Device, encoder: &mut CommandEncoder, frame: &Frame<'_>) -> Result<(), Error> {
-        // No debug group around the frame, only a label on each pass: in debug builds, Mesa 22.3's drivers crash at the
-        // second group of an encoder (gfx-rs/wgpu#3377), and an encoder may hold many frames.
+        // A debug group around the frame would crash Mesa 22.3's drivers in debug builds, at the second group of an encoder
+        // (gfx-rs/wgpu#3377), and an encoder may hold many frames. So each pass has a label, and the frame has no group.
         self.stepwise(|_, _| {}).render(device, encoder, frame)
     }
 
@@ -71,7 +71,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
     /// [`Denoiser::render`], pass by pass.
     ///
     /// # Errors
-    /// As [`Denoiser::render`].
+    /// The same as for [`Denoiser::render`].
     pub fn render(&mut self, device: &Device, encoder: &mut CommandEncoder, frame: &Frame<'_>) -> Result<(), Error> {
         let denoiser = &mut *self.denoiser;
         let &Frame { scene, index, target, .. } = frame;

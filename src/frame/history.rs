@@ -1,4 +1,4 @@
-//! The frames before this one: which of them a new frame may go on from, and what has changed since.
+//! The frames before this one: the frame that a new one may continue, and the changes since.
 
 use super::Recording;
 use crate::camera::PlacedCamera;
@@ -22,15 +22,15 @@ pub(crate) struct History {
     state: State,
 }
 
-/// The frames that the next call may go on from.
+/// The frames that the next call may continue.
 #[derive(Debug, Default)]
 enum State {
-    /// None: the next frame starts a history.
+    /// No frame: the next one starts a history.
     #[default]
     Fresh,
     /// The last frame.
     Complete,
-    /// A host's frame that waits for its light, and the last frame if it goes on from that.
+    /// A host's frame that waits for its light, and true if it continues the last frame.
     Begun { frame: Box<Begun>, continued: bool },
 }
 
@@ -154,22 +154,22 @@ impl History {
         }
     }
 
-    /// A host's frame has begun. `continued` says whether the images of the last one are still there for it.
+    /// Notes that a host's frame has begun. `continued` is true if the images of the last one are still there for it.
     pub fn begin(&mut self, frame: Begun, continued: bool) {
         self.state = State::Begun { frame: Box::new(frame), continued };
     }
 
-    /// A frame is complete.
+    /// Notes that a frame is complete.
     pub fn complete(&mut self, frame: LastFrame) {
         *self = Self { last: Some(frame), state: State::Complete };
     }
 
-    /// No frame continues the last one any more. It can still be shown.
+    /// Ends the history: no frame continues the last one any more. It can still be shown.
     pub fn forget(&mut self) {
         self.state = State::Fresh;
     }
 
-    /// The last frame's images are gone.
+    /// Notes that the last frame's images are gone.
     pub fn clear(&mut self) {
         *self = Self::default();
     }

@@ -1,4 +1,4 @@
-//! One frame: what it goes on from, and how its passes are recorded.
+//! One frame: the frame that it continues, and the recording of its passes.
 //!
 //! [`history`] decides by plain data whether a frame continues the last one, and what has changed. [`recorder`] owns the
 //! denoiser's part of the GPU and records the steps of a plan into the host's encoder.

@@ -31,7 +31,7 @@ pub(crate) struct Recorder {
     pub timing: Option<Timing>,
     pub counters: Option<Counters>,
     strides: Buffer,
-    /// The adapter is the CPU.
+    /// True if the adapter is the CPU.
     on_cpu: bool,
 }
 
@@ -69,7 +69,7 @@ impl Default for Resources<'_> {
 }
 
 impl Recorder {
-    /// Records frames of this size with these instruments.
+    /// Makes a recorder for frames of this size with these instruments.
     pub fn new(
         device: &Device,
         size: [u32; 2],
@@ -87,18 +87,18 @@ impl Recorder {
         Self { size, pipelines, textures, timing, counters, strides, on_cpu }
     }
 
-    /// The plan as it suits the adapter.
+    /// Adapts a plan to the adapter.
     pub fn adapt(&self, plan: Plan) -> Plan {
         if self.on_cpu { plan.on_cpu() } else { plan }
     }
 
-    /// Compiles the shaders of steps, where that was not done.
+    /// Compiles those shaders of steps that are not compiled yet.
     pub fn compile(&self, steps: &[Step], traversal: Traversal) -> Result<(), Error> {
         steps.iter().try_for_each(|step| self.pipelines.kernel(step, traversal).map(|_| ()))
     }
 
-    /// The constants of a frame, for each batch of its paths. They have a buffer of their own, because other frames may be recorded
-    /// before this one is submitted.
+    /// Makes the constants of a frame, for each batch of its paths. They have a buffer of their own, because the host may record other
+    /// frames before it submits this one.
     pub fn uniform(&self, device: &Device, settings: &Settings, moment: &Moment, batches: &[[u32; 2]]) -> Buffer {
         let uniform = FrameUniform::new(self.size, moment, settings);
         filled(device, "asvgf frame", &frame::of_each_batch(uniform, batches), BufferUsages::UNIFORM)
@@ -114,7 +114,7 @@ impl Recorder {
         }
     }
 
-    /// Records steps that are compiled, and calls `after` behind each.
+    /// Records compiled steps, and calls `after` behind each.
     pub fn record<'a>(
         &'a self,
         device: &Device,

@@ -49,7 +49,7 @@ const SHARED: &[(&str, &str)] = &[
     ("blinn_phong", include_str!("../../shaders/shared/blinn_phong.wgsl")),
 ];
 
-/// One shader: a pass, its features, and the numbers that its source is given.
+/// One shader: a pass, its features, and the numbers in its source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Permutation {
     pub pass: &'static Pass,
@@ -61,7 +61,7 @@ pub(crate) struct Permutation {
 }
 
 impl Permutation {
-    /// The shader of a step, where rays find triangles in this way.
+    /// The shader of a step, given the way in which rays find triangles.
     pub fn of(step: &Step, traversal: Traversal) -> Self {
         let traversal = if step.pass.traces { traversal } else { Traversal::default() };
         Self { pass: step.pass, features: step.features, traversal, view: step.view }

@@ -3,15 +3,15 @@
 use super::readback::Mailbox;
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device};
 
-/// Numbers of pixels of a host's frame that had to be cleaned before they could reach the history. All of them should be zero, except that a
-/// clean frame may have outliers.
+/// Numbers of pixels of a host's frame that had to be cleaned before they could reach the history. All of them should be zero,
+/// except that a clean frame may have outliers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct InputCounts {
     /// `Surfaces::index`.
     pub frame: u32,
-    /// Pixels with a positive, finite depth whose normal is zero or not finite (taken for a miss), or whose motion or previous
-    /// depth is not finite (taken for new).
+    /// Pixels with a positive, finite depth whose normal is zero or not finite (treated as a miss), or whose motion or previous depth
+    /// is not finite (treated as new).
     pub surfaces: u32,
     /// Pixels with a channel of radiance, albedo or emission that is infinite or not a number. Radiance that is not a number is no sample,
     /// infinite radiance becomes 65504, and such an albedo becomes 1.
@@ -31,7 +31,7 @@ const SIZE: u64 = 20;
 pub(crate) struct Counters(Mailbox<InputCounts>);
 
 impl Counters {
-    /// Counters of one frame, at zero as WebGPU has every new buffer.
+    /// Makes the counters of one frame. They are zero, like every new buffer in WebGPU.
     pub fn begin(device: &Device) -> Buffer {
         device.create_buffer(&BufferDescriptor {
             label: Some("asvgf counts"),

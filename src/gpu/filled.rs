@@ -1,11 +1,11 @@
-//! Buffers that are full from the start.
+//! Buffers with contents from the start.
 
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, COPY_BUFFER_ALIGNMENT, Device};
 
-/// A buffer that holds these bytes, at least one.
+/// Makes a buffer that holds these bytes, at least one.
 ///
-/// On a device that is lost or out of memory it holds nothing, and what uses it fails as all else does there; the device tells its
-/// host. wgpu's own `create_buffer_init` panics then.
+/// On a device that is lost or out of memory it holds nothing. Its users then fail like everything else there, and the device
+/// reports the loss to its host. wgpu's own `create_buffer_init` panics in that case.
 pub(crate) fn filled(device: &Device, label: &str, contents: &[u8], usage: BufferUsages) -> Buffer {
     let size = (contents.len() as u64).next_multiple_of(COPY_BUFFER_ALIGNMENT).max(COPY_BUFFER_ALIGNMENT);
     let buffer = device.create_buffer(&BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: true });

@@ -48,9 +48,9 @@ pub(crate) struct Moment {
     pub origin: [f64; 3],
     pub index: u32,
     pub continued: bool,
-    /// Pixels of each direction that share a texel of the host's λ.
+    /// Number of pixels in each direction that share a texel of the host's λ.
     pub lambda_block: u32,
-    /// Nothing changed: the mean goes on over all frames there were.
+    /// True if nothing changed, so that the mean continues over all frames so far.
     pub converges: bool,
 }
 
@@ -103,12 +103,12 @@ impl FrameUniform {
     }
 }
 
-/// Bytes from one dispatch's constants to the next, where several share a frame's paths: a multiple of the default
+/// Bytes from one dispatch's constants to the next, if several share a frame's paths: a multiple of the default
 /// `min_uniform_buffer_offset_alignment`.
 pub(crate) const SPACING: usize = size_of::<FrameUniform>().next_multiple_of(256);
 
-/// The constants of all dispatches that differ by the paths that they trace: how many, and the number of the first. They are in the
-/// frame's own uniform, as another small one made lavapipe of Mesa 22.3 crash when it compiled `trace`.
+/// The constants of all dispatches of a frame. They differ in the number of paths that a dispatch traces, and in the index of the
+/// first. They are in the frame's own uniform, because lavapipe of Mesa 22.3 crashed with another small one when it compiled `trace`.
 pub(crate) fn of_each_batch(frame: FrameUniform, batches: &[[u32; 2]]) -> Vec<u8> {
     let mut bytes = vec![0; batches.len().max(1) * SPACING];
     bytes[..size_of::<FrameUniform>()].copy_from_slice(bytemuck::bytes_of(&frame));
@@ -119,9 +119,9 @@ pub(crate) fn of_each_batch(frame: FrameUniform, batches: &[[u32; 2]]) -> Vec<u8
     bytes
 }
 
-/// The number of independent pairs that a filtered pair is worth: 1/Σw² (Kish 1965) of the tent's à-trous iterations, which together are a tent of
-/// half-width m = 2ⁱ, so (3m³/(2m² + 1))² on an endless plane. Edges of surfaces take a part of the taps: the study measured 90 for
-/// three iterations, where that is 142.
+/// The number of independent pairs that a filtered pair is worth: 1/Σw² (Kish 1965). The tent's à-trous iterations together are a
+/// tent of half-width m = 2ⁱ, so it is (3m³/(2m² + 1))² on an endless plane. Edges of surfaces take away some of the taps: for three
+/// iterations, 90 were measured (docs/filter.md) where the formula gives 142.
 fn effective_pairs(iterations: u32) -> f32 {
     let plane = |iterations: u32| {
         let m = f64::from(1 << iterations.min(7));

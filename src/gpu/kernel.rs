@@ -1,5 +1,5 @@
-//! A compiled shader. Its layout follows from the shader, which is the single truth; the names of its bindings are resolved
-//! here, once.
+//! A compiled shader. Its layout follows from the shader alone, which is the single source of truth. The names of its bindings are
+//! resolved here, once.
 
 use super::resource::Resource;
 use crate::Error;
@@ -28,7 +28,7 @@ struct Group {
     bindings: Vec<(u32, Resource)>,
 }
 
-/// A binding that a shader really uses.
+/// A binding that a shader uses.
 #[derive(Debug)]
 pub(crate) struct Used {
     pub group: u32,
@@ -90,16 +90,16 @@ impl Kernel {
         Ok(Self { pipeline, groups, label })
     }
 
-    /// The resources that it binds.
+    /// The resources that the kernel binds.
     #[cfg(all(test, feature = "path-tracer"))]
     pub fn resources(&self) -> impl Iterator<Item = Resource> {
         self.groups.iter().flat_map(|group| &group.bindings).map(|(_, resource)| *resource)
     }
 
-    /// Bind groups with the resources that `find` returns.
+    /// Makes bind groups with the resources that `find` returns.
     ///
     /// # Errors
-    /// The resource that there is not.
+    /// Names the resource that is missing.
     pub fn bind<'a>(
         &self,
         device: &Device,
@@ -117,7 +117,7 @@ impl Kernel {
     }
 }
 
-/// Validates a module with nothing beyond core WebGPU and lists the bindings that its entry point reaches.
+/// Validates a module for core WebGPU without extensions, and lists the bindings that its entry point reaches.
 pub(crate) fn used_bindings(module: &Module) -> Result<Vec<Used>, String> {
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(module)
@@ -137,7 +137,7 @@ pub(crate) fn used_bindings(module: &Module) -> Result<Vec<Used>, String> {
     Ok(used)
 }
 
-/// The composer appends the module's name to those of imported variables.
+/// Removes the name of the module, which the composer appends to imported variables.
 fn plain_name(name: &str) -> &str {
     name.split("X_naga_oil").next().unwrap_or(name)
 }

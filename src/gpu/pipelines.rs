@@ -9,9 +9,9 @@ use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use wgpu::Device;
 
-/// The compiled shaders of a device. A clone is another handle to the same: hand it to further denoisers
-/// ([`DenoiserDescriptor::pipelines`](crate::DenoiserDescriptor::pipelines)), and each shader is compiled once. While one is being
-/// compiled, only callers that need that shader wait.
+/// The compiled shaders of a device. A clone is another handle to the same shaders: hand it to further denoisers
+/// ([`DenoiserDescriptor::pipelines`](crate::DenoiserDescriptor::pipelines)), so that each shader is compiled once. While a shader
+/// is being compiled, only callers that need it wait.
 #[derive(Clone)]
 pub struct Pipelines {
     device: Device,
@@ -21,8 +21,8 @@ pub struct Pipelines {
 /// A shader that is compiled, or is being compiled by the holder of the lock.
 type Slot = Arc<Mutex<Option<Arc<Kernel>>>>;
 
-/// Locks are taken in this order: a slot's, then either of these, and each of these for as long as it takes to look something up or
-/// to compose a source. A driver compiles, for seconds, under the slot's alone.
+/// Locks are taken in this order: a slot's, then either of these. Each of these is held only to look something up or to compose a
+/// source. A driver compiles, for seconds, under the slot's lock alone.
 struct Shared {
     composer: Mutex<Shaders>,
     slots: Mutex<HashMap<Permutation, Slot>>,
@@ -35,12 +35,12 @@ impl Pipelines {
         Ok(Self { device: device.clone(), shared: Arc::new(shared) })
     }
 
-    /// True if they are this device's. wgpu numbers devices by instance, and cannot tell the devices of two instances apart.
+    /// True if the shaders are this device's. wgpu numbers devices by instance, and cannot tell devices of two instances apart.
     pub(crate) fn belong_to(&self, device: &Device) -> bool {
         self.device == *device
     }
 
-    /// The compiled shader of a step; compiles it if that was not done.
+    /// The compiled shader of a step. Compiles it if necessary.
     pub(crate) fn kernel(&self, step: &Step, traversal: Traversal) -> Result<Arc<Kernel>, Error> {
         let permutation = Permutation::of(step, traversal);
         let slot = self.slot(permutation);
@@ -64,7 +64,7 @@ impl Pipelines {
     }
 }
 
-/// Nothing is half done when a thread panics here: a kernel is in its slot or not.
+/// Locks a mutex, even after a panic of another thread, because nothing is left half done: a kernel is in its slot or not.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -90,7 +90,7 @@ mod tests {
         let (ready, busy) = (of(&[]), of(&[Feature::VarianceOfMean]));
         let kernel = |pipelines: &Pipelines, step: &Step| pipelines.kernel(step, Traversal::default()).map(|_| ());
         kernel(&pipelines, &ready).unwrap();
-        // As long as this is held, the second is being compiled.
+        // While the slot's lock is held, the second shader counts as being compiled.
         let slot = pipelines.slot(Permutation::of(&busy, Traversal::default()));
         let compiling = lock(&slot);
         let (sender, receiver) = mpsc::channel();

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, CommandEncoder, Device, MapMode};
 
-/// Results that wait to be taken. Older ones are dropped, so that a host that never asks does not lose memory.
+/// Number of results that wait to be taken. Older ones are dropped, so that a host that never asks does not lose memory.
 const KEPT: usize = 256;
 
 /// The results that have arrived, oldest first.
@@ -17,7 +17,7 @@ impl<T> Default for Mailbox<T> {
 }
 
 impl<T: Send + 'static> Mailbox<T> {
-    /// Copies a buffer, maps the copy once the host has submitted, and keeps the value that `read` makes of the bytes.
+    /// Copies a buffer, maps the copy once the host has submitted, and keeps the result of `read` on its bytes.
     pub fn fetch(
         &self,
         device: &Device,
@@ -48,7 +48,7 @@ impl<T: Send + 'static> Mailbox<T> {
         });
     }
 
-    /// The oldest result that was not taken yet.
+    /// Takes the oldest result.
     pub fn take(&self) -> Option<T> {
         let mut results = self.0.lock().ok()?;
         if results.is_empty() { None } else { Some(results.remove(0)) }

@@ -7,17 +7,17 @@ use wgpu::{Device, Extent3d, TextureDescriptor, TextureDimension, TextureUsages,
 #[derive(Debug, Default)]
 pub(crate) struct Textures {
     memory: Memory,
-    /// By the numbers of `memory`.
+    /// The views of the textures, by their numbers in `memory`.
     views: Vec<Option<TextureView>>,
-    /// The images that frames were planned to use at most when textures were last given up.
+    /// The images of the largest plan, when textures were last given up.
     images: Vec<(Image, bool)>,
-    /// Keep every image until the next frame.
+    /// True to keep every image until the next frame.
     keep: bool,
     bytes: u64,
 }
 
 impl Textures {
-    /// Textures of one denoiser. With `keep`, no texture holds two images of one frame.
+    /// Makes the textures of one denoiser. With `keep`, no texture holds two images of one frame.
     pub fn new(keep: bool) -> Self {
         Self { keep, ..Default::default() }
     }
@@ -75,7 +75,7 @@ impl Textures {
         self.memory.abandon();
     }
 
-    /// Gives everything up.
+    /// Gives up all textures.
     pub fn clear(&mut self) {
         *self = Self::new(self.keep);
     }
@@ -85,7 +85,7 @@ impl Textures {
         self.views.get(self.memory.texture(slot)?)?.as_ref()
     }
 
-    /// True if they hold a whole frame: none was begun since.
+    /// True if the textures hold a whole frame, because none was begun since.
     pub fn is_complete(&self) -> bool {
         self.memory.is_complete()
     }

@@ -12,7 +12,7 @@ use wgpu::{
 pub struct FrameTimes {
     /// `Frame::index`, or `Surfaces::index`.
     pub frame: u32,
-    /// Name of each pass and its milliseconds, in order; iterations one by one. At most the first 2048 dispatches of a frame.
+    /// Name and milliseconds of each pass, in order, iterations one by one. At most the first 2048 dispatches of a frame.
     pub passes: Vec<(&'static str, f64)>,
 }
 
@@ -29,14 +29,14 @@ pub(crate) struct Timing {
     done: Mailbox<FrameTimes>,
 }
 
-/// Passes whose two timestamps fit into one query set.
+/// Number of passes whose two timestamps fit into one query set.
 const MOST_PASSES: usize = wgpu::QUERY_SET_MAX_QUERIES as usize / 2;
 
 /// The queries of one frame.
 #[derive(Debug)]
 pub(crate) struct FrameQueries {
     set: QuerySet,
-    /// Number of passes that it has timestamps for.
+    /// Number of passes that the queries have timestamps for.
     room: usize,
     names: Vec<&'static str>,
     frame: u32,
@@ -48,7 +48,7 @@ impl Timing {
         Self { milliseconds_per_tick, done: Mailbox::default() }
     }
 
-    /// Queries for a frame of up to `passes` passes; passes beyond what a query set can hold are not timed.
+    /// Makes the queries for a frame of up to `passes` passes; passes beyond the capacity of a query set are not timed.
     pub fn begin(&self, device: &Device, frame: u32, passes: usize) -> FrameQueries {
         let set = device.create_query_set(&QuerySetDescriptor {
             label: Some("asvgf timestamps"),
@@ -77,7 +77,7 @@ impl Timing {
         });
     }
 
-    /// Times of the oldest frame that is done and was not taken yet.
+    /// Takes the times of the oldest finished frame.
     pub fn take(&self) -> Option<FrameTimes> {
         self.done.take()
     }

@@ -1,4 +1,4 @@
-//! Frames of a host's own renderer: the views that it hands in, and those that it is handed.
+//! Frames of a host's own renderer: the views that it hands in, and those that it receives.
 
 mod views;
 
@@ -16,32 +16,32 @@ use wgpu::{Buffer, TextureView};
 pub struct Surfaces<'a> {
     /// The viewpoint of this frame.
     pub camera: Viewpoint,
-    /// Number of the frame. With the pixel it should decide all random numbers. It should grow by one per frame: any other step
+    /// Number of the frame. It should decide all random numbers, together with the pixel, and grow by one per frame: any other step
     /// starts a new history, because motion leads to the frame before.
     pub index: u32,
     /// Distance from the eye along the view axis, in the world's unit (not the hardware's depth, not the ray's length): first
     /// channel of `r32float`, `r16float`, `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. 0, negative, infinite and NaN
     /// mean that nothing was hit. So do depths outside 10⁻¹⁸ … 10¹⁸, because some renderers put the sky at f32's largest number.
     pub depth: &'a TextureView,
-    /// World-space normal on the seen side: of any length in `rgba16float`, `rgba32float` or `rgba8snorm`; mapped to 0…1 in
-    /// `rgba8unorm` or `rgb10a2unorm`; on the unfolded octahedron as −1…1 in `rg16float`, `rg32float`, `rg8snorm` or `rg16snorm`, as
-    /// 0…1 in `rg8unorm` or `rg16unorm`, and as two 16-bit 0…1 numbers (x in the low half) in `r32uint`. Zero means that nothing
-    /// was hit. It is kept to 10 bits a component.
+    /// World-space normal on the visible side. `rgba16float`, `rgba32float` or `rgba8snorm`: of any length. `rgba8unorm` or
+    /// `rgb10a2unorm`: mapped to 0…1. On the unfolded octahedron: `rg16float`, `rg32float`, `rg8snorm` or `rg16snorm` as −1…1, `rg8unorm`
+    /// or `rg16unorm` as 0…1, and `r32uint` as two 16-bit 0…1 numbers (x in the low half). Zero means that nothing was hit. The
+    /// denoiser keeps 10 bits a component.
     pub normal: &'a TextureView,
     /// Place of the surface point in the previous frame's image less its place in this one, in pixels, x right, y down, without either
-    /// frame's jitter: first two channels of `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. NaN or infinite: it was
-    /// nowhere. [`View::MotionError`](crate::View::MotionError) shows whether the motion is right. Passes that
+    /// frame's jitter: first two channels of `rg16float`, `rg32float`, `rgba16float` or `rgba32float`. NaN and infinite mean that the
+    /// point was nowhere. [`View::MotionError`](crate::View::MotionError) checks the motion. Passes that
     /// [`Denoiser::denoise`](crate::Denoiser::denoise) records may read it and `previous_depth`: leave both unchanged until then.
     pub motion: &'a TextureView,
     /// The linear depth that the surface point had in the previous frame's camera, in the formats of `depth`. Without it, points are
-    /// taken to rest while the camera moves. With re-shading, it places the points that move: take 32 bits, because 16 bits place them
-    /// 5·10⁻⁴ of the depth off their surface.
+    /// assumed to rest while the camera moves. With re-shading it gives the former places of moving points: use 32 bits, because 16 bits
+    /// place them 5·10⁻⁴ of the depth off their surface.
     pub previous_depth: Option<&'a TextureView>,
-    /// Number of the object, so that two objects that touch are not mixed in time. First channel of `r8uint`, `r16uint`, `r32uint`, `rg32uint`,
-    /// `rgba32uint`, `r16float` or `r32float`, …; any distinct numbers will do.
+    /// Number of the object, so that two objects that touch are not mixed in time. First channel of `r8uint`, `r16uint`, `r32uint`,
+    /// `rg32uint`, `rgba32uint`, `r16float` or `r32float`, …; any distinct numbers will do.
     pub instance: Option<&'a TextureView>,
-    /// The parts that may have changed since the last frame. Where nothing has changed, passes are left out, and a still image converges.
-    /// By default anything may have changed. A camera that moved is noticed in any case.
+    /// The parts that may have changed since the last frame. If nothing has changed, passes are left out, and a still image converges.
+    /// By default anything may have changed. The denoiser notices a moved camera in any case.
     pub changes: Changes,
 }
 
@@ -49,15 +49,15 @@ pub struct Surfaces<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct Shading<'a> {
     /// Noisy linear radiance, Rec. 709, ≥ 0 (values above 10¹⁵ count as 10¹⁵): `rgba16float`, `rgba32float`, `rg11b10ufloat` or
-    /// `rgb9e5ufloat`. Where nothing was hit it is shown as it is. It may be the target too; it is copied then. NaN is no sample: the
-    /// pixel's history goes on, or it is filled from its surface, up to 27 pixels away (black without spatial iterations). +∞ enters no average: it halves the pixel's history, and is shown as 65504 where
-    /// no history is left.
-    /// Take other random numbers in each frame: the same noise does not average out.
+    /// `rgb9e5ufloat`. Pixels where nothing was hit are shown unfiltered. It may share the target's texture, and is copied then. NaN
+    /// is no sample: the pixel's history continues, or its surface fills it from up to 27 pixels away (black without spatial
+    /// iterations). +∞ enters no average: it halves the pixel's history, and is shown as 65504 if no history is left.
+    /// Take other random numbers in each frame, because the same noise does not average out.
     pub radiance: &'a TextureView,
     /// Linear reflectance at the visible surface, 0…1: `rgba8unorm` and `bgra8unorm` (`-srgb` too), `rgb10a2unorm`, and the formats
-    /// of `radiance`. Radiance is divided by it before filtering (by at least 0.02, at most 1) and the result multiplied, so that textures stay
-    /// sharp. An albedo that is not a number divides nothing. Without an albedo, radiance is filtered with its textures;
-    /// a frame with an albedo after one without starts a new history.
+    /// of `radiance`. Radiance is divided by it before filtering (by at least 0.02, at most 1) and multiplied by it afterwards, so that
+    /// textures stay sharp. An albedo that is not a number divides nothing. Without an albedo, radiance is filtered with its
+    /// textures; a frame with an albedo after one without starts a new history.
     pub albedo: Option<&'a TextureView>,
     /// Linear radiance that the visible surface or the sky emits towards the eye, in the formats of `radiance`. It bypasses the
     /// filter: emitters stay sharp, and blink without resetting their surroundings.
@@ -73,7 +73,7 @@ pub struct Shading<'a> {
 }
 
 impl<'a> Surfaces<'a> {
-    /// The least that a frame needs: no `previous_depth`, no `instance`, and `changes` unknown.
+    /// Makes the surfaces that every frame needs: no `previous_depth`, no `instance`, and unknown `changes`.
     pub fn new(
         camera: impl Into<Viewpoint>,
         index: u32,
@@ -95,24 +95,24 @@ impl<'a> Surfaces<'a> {
 }
 
 impl<'a> Shading<'a> {
-    /// Radiance alone, which contains its emission and textures.
+    /// Makes a shading of radiance alone, which contains its emission and textures.
     pub fn new(radiance: &'a TextureView, target: &'a TextureView) -> Self {
         Self { radiance, albedo: None, emission: None, demodulated: false, pairs: None, lambda: None, target }
     }
 }
 
-/// Radiances that some surface samples of the last frame reflected then, and that the same paths reflect now: the gradient's measurements.
+/// Radiances of some surface samples in the last frame, and of the same paths in this one: the gradient's measurements.
 ///
-/// A host takes a sample of last frame, finds where it is in this frame's image, and shades it again: the same point, view
+/// A host takes a sample of the last frame, finds its place in this frame's image, and shades it again: the same point, view
 /// direction and random numbers, in this frame's scene. Both values are of the same kind as [`Shading::radiance`] but without
-/// emission: reflected light, multiplied by the albedo unless that is `demodulated`.
+/// emission: reflected light, multiplied by the albedo unless the radiance is `demodulated`.
 #[derive(Clone, Copy, Debug)]
 pub struct Pairs<'a> {
-    /// Radiance now: `rgba16float` or `rgba32float`; or its luminance: `r16float` or `r32float`. Of the denoiser's size, each value
-    /// in the pixel where the sample is now, at most one in each 3×3 block (the first of several counts), and −1 elsewhere; or one
+    /// Radiance now: `rgba16float` or `rgba32float`; or its luminance: `r16float` or `r32float`. Of the denoiser's size, with each
+    /// value in the sample's present pixel, at most one in each 3×3 block (the first of several counts), and −1 elsewhere. Or one
     /// texel for each block, ⌈width/3⌉ × ⌈height/3⌉, meant for the block's centre.
     pub current: &'a TextureView,
-    /// Radiance then, of the same size and with as many channels.
+    /// Radiance in the last frame, of the same size and with as many channels.
     pub previous: &'a TextureView,
     /// True if `radiance` holds the same paths in these pixels, instead of paths of their own: they are then not counted as new
     /// samples. Full size only.
@@ -120,7 +120,7 @@ pub struct Pairs<'a> {
 }
 
 impl<'a> Pairs<'a> {
-    /// Pairs beside the pixels' own samples.
+    /// Makes pairs that stand beside the pixels' own samples.
     pub fn new(current: &'a TextureView, previous: &'a TextureView) -> Self {
         Self { current, previous, in_place: false }
     }
@@ -132,14 +132,14 @@ pub struct Lambda<'a> {
     /// First channel of `r8unorm`, `r16float`, `r32float`, `rg…`, `rgba8unorm`, `rgba16float` or `rgba32float`, 0…1: 0 keeps all, 1
     /// drops all. ⌈width/block⌉ × ⌈height/block⌉ texels.
     pub view: &'a TextureView,
-    /// Pixels of each direction that share a texel, 1…32768.
+    /// Number of pixels in each direction that share a texel, 1…32768.
     pub block: u32,
     /// True if the view holds the confidence in the history, 1 − λ.
     pub confidence: bool,
 }
 
 impl<'a> Lambda<'a> {
-    /// λ of each pixel.
+    /// Makes a λ with one texel for each pixel.
     pub fn new(view: &'a TextureView) -> Self {
         Self { view, block: 1, confidence: false }
     }

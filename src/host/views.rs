@@ -1,4 +1,4 @@
-//! Checks of the host's views at the door, and the features that follow from them.
+//! Checks of the host's views when they are handed in, and the features that follow from them.
 
 use super::{Lambda, Pairs, Shading, Surfaces};
 use crate::Error;
@@ -189,7 +189,7 @@ pub(crate) fn shading(
     inputs.lambda = given.lambda.is_some();
     let missing = |view, setting, remedy| Error::ViewMissing { view, setting, remedy };
     match settings.filter.gradient.hosted(inputs.lambda, inputs.pairs) {
-        // Nothing is made of them.
+        // Pairs are not needed, because the scene has not changed.
         Gradient::Pairs if !changes.scene => Ok(()),
         Gradient::Pairs => {
             let none = missing("pairs", "Gradient::Pairs", "fill `Shading::pairs`, or choose Gradient::Automatic");

@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// The first iteration smooths the variance and feeds the history. A small kernel has the nearest taps alone.
+/// The first iteration smooths the variance and feeds the history. A small kernel has only the nearest taps.
 pub(crate) static PASS: Pass = Pass {
     name: "atrous",
     source: include_str!("../../shaders/atrous.wgsl"),

@@ -45,7 +45,7 @@ pub enum HostView {
 }
 
 impl HostView {
-    /// Its name in plans: `previous depth`.
+    /// The view's name in plans: `previous depth`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Depth => "depth",
@@ -69,7 +69,7 @@ impl HostView {
 pub struct Bound {
     /// Name of the variable in WGSL.
     pub name: &'static str,
-    /// The image behind it.
+    /// The image behind the binding.
     pub slot: Slot,
     /// True if the shader writes it, false if the shader reads it.
     pub written: bool,
@@ -81,24 +81,24 @@ pub(crate) struct Binding {
     name: &'static str,
     source: Source,
     written: bool,
-    /// The host's own view takes the image's place if the step has this feature.
+    /// The host's view that replaces the image if the step has this feature.
     host: Option<(Feature, HostView)>,
     all: Features,
-    /// At least one of these, unless the set is empty.
+    /// The step needs at least one of these, unless the set is empty.
     any: Features,
     none: Features,
-    /// The shader reads it as a storage texture if it has [`Feature::StorageReads`].
+    /// True to read it as a storage texture if the step has [`Feature::StorageReads`].
     storage: bool,
 }
 
-/// Where a step finds the image of a binding.
+/// The place at which a step finds the image of a binding.
 #[derive(Clone, Copy, Debug)]
 enum Source {
     Now(Image),
     Before(Image),
-    /// One of two images that take turns: that of the step's turn, or the other.
+    /// One of two images that take turns: the image of the step's turn, or the other.
     Turn(fn(u8) -> Image, u32),
-    /// An image of the step's level of a pyramid, or so many levels above.
+    /// An image of the step's level of a pyramid, or of a number of levels above.
     Level(fn(u8) -> Image, u32),
     /// The image that the plan names, because an earlier pass left its result there.
     Chosen,
@@ -121,7 +121,7 @@ pub(super) const fn out(name: &'static str, image: Image) -> Binding {
     Binding::new(name, Source::Now(image), true)
 }
 
-/// Reads, of two images that take turns, that of the step's turn.
+/// Reads the image of the step's turn, of two that take turns.
 pub(super) const fn turn(name: &'static str, images: fn(u8) -> Image) -> Binding {
     Binding::new(name, Source::Turn(images, 0), false)
 }
@@ -172,27 +172,27 @@ impl Binding {
         Self { name, source, written, host: None, all: none, any: none, none, storage: false }
     }
 
-    /// Bound if the step has this feature.
+    /// Binds the image only if the step has this feature.
     pub(super) const fn with(self, feature: Feature) -> Self {
         Self { all: self.all.with(feature), ..self }
     }
 
-    /// Bound if the step has one of these features.
+    /// Binds the image only if the step has one of these features.
     pub(super) const fn with_any(self, features: &[Feature]) -> Self {
         Self { any: Features::of(features), ..self }
     }
 
-    /// Bound if the step lacks this feature.
+    /// Binds the image only if the step lacks this feature.
     pub(super) const fn unless(self, feature: Feature) -> Self {
         Self { none: self.none.with(feature), ..self }
     }
 
-    /// With this feature, the host's own view is read instead of a copy.
+    /// Reads the host's own view instead of a copy if the step has this feature.
     pub(super) const fn or_host(self, feature: Feature, view: HostView) -> Self {
         Self { host: Some((feature, view)), ..self }
     }
 
-    /// Read at so many taps that an adapter that is the CPU reads it as storage, see [`Feature::StorageReads`].
+    /// Reads the image as storage on an adapter that is the CPU, because it is read at many taps, see [`Feature::StorageReads`].
     pub(super) const fn at_many_taps(self) -> Self {
         Self { storage: true, ..self }
     }
@@ -223,7 +223,7 @@ impl Binding {
             (_, Source::Before(image)) => Slot::Before(image),
             (_, Source::Turn(images, offset)) => Slot::Now(images(take_turns(offset))),
             (_, Source::Level(images, offset)) => Slot::Now(images((nth.iteration + offset) as u8)),
-            // A plan that runs the pass has named the image; the first turn stands for it in a declaration alone.
+            // A plan that runs the pass has named the image. In a declaration, the first turn stands for it.
             (_, Source::Chosen) => Slot::Now(nth.image.unwrap_or(Image::Color(0))),
             (_, Source::Host(view)) => Slot::Host(view),
             (_, Source::Target) => Slot::Target,

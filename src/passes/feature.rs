@@ -21,7 +21,7 @@ macro_rules! features {
 }
 
 features! {
-    /// Two levels of trees; placements of this and the last frame.
+    /// Two levels of trees, with placements of this and the last frame.
     Instanced,
     /// Image look-ups.
     Textures,
@@ -39,7 +39,7 @@ features! {
     AlphaBlend,
     /// Rays test every triangle instead of a tree.
     FewTriangles,
-    /// There is light to sample.
+    /// Light samples, because there is light.
     Lights,
     /// Emitting triangles.
     Emitters,
@@ -89,9 +89,9 @@ features! {
     SmallKernel,
     /// The last output is blended into this one.
     Steady,
-    /// A sample that is far brighter than its surroundings is not believed.
+    /// A sample that is far brighter than its surroundings loses weight.
     Outliers,
-    /// The target shows the samples as they are.
+    /// The target shows the samples unfiltered.
     Unfiltered,
     /// The target shows the mean over frames.
     Accumulate,
@@ -104,7 +104,7 @@ features! {
     TargetPicture,
     /// The filtered radiance was divided by an albedo.
     Albedo,
-    /// Samples are shown as they are where nothing was hit.
+    /// Samples are shown unfiltered where nothing was hit.
     Background,
     /// Normals are points of the unfolded octahedron.
     OctahedralNormals,
@@ -114,11 +114,11 @@ features! {
     PackedNormals,
     /// The host gives the depth that each point had in the last frame.
     PreviousDepth,
-    /// The host's motion is read where it is needed, instead of a copy.
+    /// The host's motion is read in place instead of a copy.
     HostMotion,
-    /// The host's radiance, albedo and emission are read where they are needed, instead of copies.
+    /// The host's radiance, albedo and emission are read in place instead of copies.
     HostLight,
-    /// The host's objects have floats for numbers.
+    /// The host numbers its objects with floats.
     FloatObjects,
     /// The host's radiance is multiplied by the albedo and contains the emission.
     Modulated,
@@ -134,7 +134,7 @@ features! {
     InPlace,
     /// Differences of the gradient keep their sign.
     SignedGradient,
-    /// λ is at least the λ of the paths around on any surface.
+    /// λ is at least the λ of nearby paths on any surface.
     AcrossSurfaces,
     /// λ is the host's.
     ExternalLambda,
@@ -172,7 +172,7 @@ impl Feature {
 #[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Features(u128);
 
-/// A shift beyond the last bit would make two features one.
+/// Asserts that each feature has a bit, because a shift beyond the last bit would make two features one.
 const _: () = assert!(Feature::ALL.len() <= u128::BITS as usize, "a set has a bit for each feature");
 
 impl Features {

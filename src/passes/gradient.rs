@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// The turn is that of the pairs' filter after its last iteration. Analytic shading reads the scene instead of pairs.
+/// The turn is the one of the pairs' filter after its last iteration. Analytic shading reads the scene instead of pairs.
 pub(crate) static PASS: Pass = Pass {
     name: "gradient",
     source: include_str!("../../shaders/gradient.wgsl"),

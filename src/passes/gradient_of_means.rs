@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// The coarsest level of the pyramid: its mean is over as many samples as 2100 strata have.
+/// The coarsest level of the pyramid: its mean is over as many samples as there are in 2100 strata.
 pub(crate) const COARSEST: u8 = 5;
 
 pub(crate) static PASS: Pass = Pass {

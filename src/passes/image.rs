@@ -16,7 +16,7 @@ pub enum Image {
     Object,
     /// This frame's demodulated radiance.
     Radiance,
-    /// The albedo that it was divided by.
+    /// The albedo that radiance was divided by.
     Albedo,
     /// Emission towards the camera.
     Emission,
@@ -32,9 +32,9 @@ pub enum Image {
     Repeats,
     /// The distance by which that path's surface has moved since.
     Shifts,
-    /// Demodulated radiance now of the pair that the host made for the stratum.
+    /// Demodulated radiance now, of the host's pair for the stratum.
     HostPairNow,
-    /// Demodulated radiance before of that pair.
+    /// Demodulated radiance before, of the same pair.
     HostPairBefore,
     /// Radiances now of the gradient's pairs, and their products; two take turns while they are filtered.
     PairMomentsNow(u8),
@@ -42,29 +42,29 @@ pub enum Image {
     PairMomentsBefore(u8),
     /// Means of new samples and the variance of their difference from the histories, at each level of the pyramid.
     MeansNow(u8),
-    /// Means of these histories.
+    /// Means of the histories at each level.
     MeansBefore(u8),
     /// Numerator and denominator of λ on the stratum's surface, and on any surface, as bits of f32; two take turns.
     Gradient(u8),
     /// The factor on the history, as bits of f32.
     Ratio,
-    /// Sum over frames and their number.
+    /// Sum over frames, and their number.
     Sum,
     /// Sum of the paths' radiances so far, and the number of their rays, if several dispatches trace them; two take turns.
     Paths(u8),
     /// α and λ.
     Weights,
-    /// The last output where the surface was, and its weight.
+    /// The last output at the surface's former place, and its weight.
     Reprojected,
     /// The filtered colour with the last one blended in.
     Output,
     /// The sample of each stratum that is farthest above its level, and the light of the stratum's other pixels.
     Candidates,
-    /// Number of the strata of a row that have such a sample, by its ratio to its level.
+    /// Number of strata in a row that have such a sample, by the sample's ratio to its level.
     CandidateCounts,
     /// Light that the pixels of a row show.
     CandidateSums,
-    /// Greatest ratio of a sample to its level in each stratum, and that level where there is no history.
+    /// Greatest ratio of a sample to its level in each stratum, and that level if there is no history.
     OutlierLimit,
 }
 
@@ -117,7 +117,7 @@ impl Image {
         }
     }
 
-    /// Its size.
+    /// Size of the image.
     pub fn grid(self) -> Grid {
         match self {
             Self::Samples
@@ -139,7 +139,7 @@ impl Image {
         }
     }
 
-    /// Its name, with its number if it takes turns or has levels.
+    /// Name of the image, with its number if it takes turns or has levels.
     pub fn name(self) -> &'static str {
         match self {
             Self::Visibility => "visibility",

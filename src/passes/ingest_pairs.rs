@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// The albedo is read where pairs are divided by it.
+/// The albedo is read only if pairs are divided by it.
 pub(crate) static PASS: Pass = Pass {
     name: "ingest_pairs",
     source: include_str!("../../shaders/ingest_pairs.wgsl"),

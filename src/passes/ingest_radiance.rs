@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// The albedo of a repeated path matters only where radiance is divided by it.
+/// The albedo of a repeated path matters only if radiance is divided by it.
 pub(crate) static PASS: Pass = Pass {
     name: "ingest_radiance",
     source: include_str!("../../shaders/ingest_radiance.wgsl"),

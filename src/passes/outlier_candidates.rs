@@ -1,4 +1,4 @@
-//! The samples that may be outliers, see shaders/outlier_candidates.wgsl.
+//! Candidates: the samples that may be outliers, see shaders/outlier_candidates.wgsl.
 
 use super::prelude::*;
 

@@ -1,4 +1,4 @@
-//! The limit above its level up to which a sample is believed, see shaders/outlier_limit.wgsl.
+//! The limit that separates samples from outliers, as a ratio to their level, see shaders/outlier_limit.wgsl.
 
 use super::prelude::*;
 

@@ -1,4 +1,4 @@
-//! A compute shader of the pipeline and everything that is known of it: one constant in a file of its own.
+//! A compute shader of the pipeline with all facts about it: one constant in a file of its own.
 
 use super::binding::Binding;
 use super::{Bound, Feature, Features, Grid, Nth};
@@ -8,19 +8,19 @@ use std::hash::{Hash, Hasher};
 
 /// A compute shader of the pipeline.
 ///
-/// Its file in src/passes/ declares it, its shader in shaders/ has the same name.
+/// A file in src/passes/ declares it; its shader in shaders/ has the same name.
 pub struct Pass {
     /// The shader's file name without its ending.
     pub(crate) name: &'static str,
     /// The shader in WGSL, before it is composed with the modules that it imports.
     pub(crate) source: &'static str,
-    /// An invocation for each of these.
+    /// The texels that have an invocation each.
     pub(crate) grid: Grid,
     /// The features that the shader knows, in lists that passes share.
     pub(crate) features: &'static [&'static [Known]],
     /// The bindings of group 0 that hold images, in lists that passes share.
     pub(crate) bindings: &'static [&'static [Binding]],
-    /// True if it follows rays through a scene, so that its shader is compiled for a [`Traversal`](super::Traversal).
+    /// True if the pass follows rays through a scene, so that its shader is compiled for a [`Traversal`](super::Traversal).
     pub(crate) traces: bool,
 }
 
@@ -43,11 +43,11 @@ impl Pass {
         self.bound(features).map(|binding| binding.resolve(features, nth)).collect()
     }
 
-    /// True if a shader with these features can read what it reads at many taps as storage: WebGPU binds four storage textures at
-    /// most, and those that are written come first.
+    /// True if a shader with these features can bind the images that it reads at many taps as storage: WebGPU binds four storage
+    /// textures at most, and written ones come first.
     pub(crate) fn can_read_storage(&self, features: Features) -> bool {
         let written = self.bound(features).filter(|binding| binding.is_written()).count();
-        // Rays read the scene's geometry at every node.
+        // Shaders that follow rays also bind the scene's geometry, which they read at every node.
         let read = self.bound(features).filter(|binding| binding.is_storage()).count() + usize::from(self.traces);
         read > 0 && written + read <= MOST_STORAGE_TEXTURES
     }
@@ -57,8 +57,8 @@ impl Pass {
     }
 }
 
-/// A feature that a shader knows: compiled in if the plan has it, has all of the features that it goes with, and none of those
-/// that make it needless.
+/// A feature that a shader knows. It is compiled in if the plan has it, has all of the features that it depends on, and none of
+/// those that make it needless.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     feature: Feature,
@@ -66,29 +66,29 @@ pub(crate) struct Known {
     none: Features,
 }
 
-/// The shader knows this feature.
+/// Declares that the shader knows this feature.
 pub(super) const fn knows(feature: Feature) -> Known {
     Known { feature, all: Features::of(&[feature]), none: Features::of(&[]) }
 }
 
 impl Known {
-    /// The feature matters beside this other one alone.
+    /// The feature matters only together with this other one.
     pub(super) const fn with(self, feature: Feature) -> Self {
         Self { all: self.all.with(feature), ..self }
     }
 
-    /// The feature is needless beside this other one.
+    /// The feature is needless together with this other one.
     pub(super) const fn unless(self, feature: Feature) -> Self {
         Self { none: self.none.with(feature), ..self }
     }
 
-    /// The feature, if a plan has it compiled in.
+    /// Returns the feature if a plan compiles it in.
     pub(super) fn of(&self, plan: Features) -> Option<Feature> {
         (plan.has_all(self.all) && !plan.has_any(self.none)).then_some(self.feature)
     }
 }
 
-// A pass is known by its name, which is that of its files.
+// Passes are equal if they have the same name, which is the name of their files.
 
 impl PartialEq for Pass {
     fn eq(&self, other: &Self) -> bool {

@@ -1,4 +1,4 @@
-//! The surfaces whose paths a host is to repeat, see shaders/reshade.wgsl.
+//! The surfaces whose paths a host has to repeat, see shaders/reshade.wgsl.
 
 use super::prelude::*;
 

@@ -1,4 +1,4 @@
-//! The picture put together in the host's target, see shaders/resolve.wgsl.
+//! The final picture, written to the host's target, see shaders/resolve.wgsl.
 
 use super::prelude::*;
 

@@ -15,7 +15,7 @@ pub(super) const GEOMETRY: &[Known] = &[
     knows(FewTriangles),
 ];
 
-/// The features of shaders that read a host's motion and light themselves, or their copies: host_motion.wgsl, host_light.wgsl.
+/// The features of shaders that read a host's motion and light directly, or their copies: host_motion.wgsl, host_light.wgsl.
 pub(super) const HOST_INPUT: &[Known] = &[
     knows(HostMotion).unless(Still),
     knows(PreviousDepth).with(HostMotion).unless(Still),
@@ -25,7 +25,7 @@ pub(super) const HOST_INPUT: &[Known] = &[
     knows(DirectEmission).with(HostLight).with(Modulated),
 ];
 
-/// A pixel's sample, the place where its surface was, and what the last frame left: sample.wgsl, history_taps.wgsl.
+/// A pixel's sample, the former place of its surface, and the images of the last frame: sample.wgsl, history_taps.wgsl.
 pub(super) const SAMPLE_AND_HISTORY: &[Binding] = &[
     now("guide", Image::Guide),
     now("radiance", Image::Radiance).or_host(HostLight, HostView::Radiance),
@@ -45,8 +45,8 @@ pub(super) const SAME_SURFACE: &[Binding] = &[
     before("object_previous", Image::Object).with(Objects).unless(Still),
 ];
 
-/// The two radiances of a stratum's path, in the images of two frames or in those of the host's pairs, and whether they are
-/// believed: pair_taps.wgsl. Analytic shading has no paths.
+/// The two radiances of a stratum's path, in the images of two frames or in those of the host's pairs, and the limits of outliers:
+/// pair_taps.wgsl. Analytic shading has no paths.
 pub(super) const PAIR_TAPS: &[Binding] = &[
     now("samples", Image::Samples),
     now("radiance", Image::Radiance).unless(Pairs).unless(BlinnPhong),

@@ -1,4 +1,4 @@
-//! The last output blended in, against flicker, see shaders/steady.wgsl.
+//! Blending with the last output, against flicker, see shaders/steady.wgsl.
 
 use super::prelude::*;
 

@@ -9,15 +9,15 @@ use crate::View;
 pub struct Step {
     /// The shader.
     pub pass: &'static Pass,
-    /// The features that are compiled into it.
+    /// The features that are compiled into the shader.
     pub features: Features,
     /// Number of a filter's iteration, from 0: its taps are 2ⁱ apart.
     pub iteration: u32,
     /// Number of the dispatch among those that share a frame's paths, from 0.
     pub batch: u32,
-    /// The view that it shows, if it shows one.
+    /// The view that the step shows, if it shows one.
     pub view: Option<View>,
-    /// The images behind its bindings.
+    /// The images behind the bindings.
     pub bindings: Vec<Bound>,
 }
 
@@ -35,17 +35,17 @@ pub(crate) struct Nth {
 }
 
 impl Nth {
-    /// Each iteration reads the image that the one before has written.
+    /// An iteration, which reads the image that the one before has written.
     pub const fn iteration(iteration: u32) -> Self {
         Self { iteration, turn: iteration, batch: 0, image: None }
     }
 
-    /// The pass reads the result of so many iterations.
+    /// A pass that reads the result of a number of iterations.
     pub const fn after(iterations: u32) -> Self {
         Self { iteration: 0, turn: iterations, batch: 0, image: None }
     }
 
-    /// The pass reads a result that one of several images holds.
+    /// A pass that reads a result that one of several images holds.
     pub const fn of(image: Option<Image>) -> Self {
         Self { iteration: 0, turn: 0, batch: 0, image }
     }
@@ -69,7 +69,7 @@ impl Step {
         Self { pass, features, iteration: nth.iteration, batch: nth.batch, view: None, bindings }
     }
 
-    /// The pixels or strata that it has an invocation for.
+    /// The pixels or strata that have an invocation each.
     pub fn grid(&self) -> Grid {
         self.pass.grid
     }

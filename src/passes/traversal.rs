@@ -1,17 +1,17 @@
-//! The numbers that shaders which follow rays are compiled with.
+//! Numbers that are compiled into shaders that follow rays.
 
 /// The way in which rays find triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Traversal {
-    /// Down the trees.
+    /// Rays descend trees.
     Tree {
         /// Slots of the traversal's stack.
         stack: u32,
     },
-    /// By a test of each, see [`Feature::FewTriangles`](super::Feature::FewTriangles).
+    /// Rays test each triangle, see [`Feature::FewTriangles`](super::Feature::FewTriangles).
     Every {
-        /// Number of the triangles, a multiple of 8.
+        /// Number of triangles, a multiple of 8.
         triangles: u32,
     },
 }

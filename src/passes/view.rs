@@ -1,4 +1,4 @@
-//! An intermediate image shown, see shaders/view.wgsl: a row for each view.
+//! Display of an intermediate image, see shaders/view.wgsl: a row for each view.
 
 use super::prelude::*;
 use super::{Features, Grid, Nth, Slot, Step};
@@ -10,14 +10,14 @@ pub(crate) static PASS: Pass = Pass {
     source: include_str!("../../shaders/view.wgsl"),
     grid: Grid::Pixels,
     features: &[&[knows(TargetPicture), knows(TargetF16)]],
-    // Each view has its own.
+    // Each view has bindings of its own.
     bindings: &[],
     traces: false,
 };
 
-/// A view, as the shader's block of its name shows it.
+/// A view, shown by the shader's block of the same name.
 struct Row {
-    /// The conditions under which a frame has it, each with the reason that is given where it has not.
+    /// The conditions under which a frame has the view, each with the reason to give if it fails.
     needs: &'static [(Need, &'static str)],
     features: &'static [Known],
     bindings: &'static [Binding],
@@ -25,11 +25,11 @@ struct Row {
 
 /// A condition on the frame's plan.
 enum Need {
-    /// One of these features.
+    /// The plan has one of these features.
     Any(&'static [Feature]),
-    /// Not this feature.
+    /// The plan lacks this feature.
     Not(Feature),
-    /// Rays, which the denoiser has traced itself.
+    /// The denoiser has traced the rays itself.
     Traced,
 }
 

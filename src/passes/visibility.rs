@@ -2,7 +2,7 @@
 
 use super::prelude::*;
 
-/// Images matter here only where they cut holes.
+/// Images matter only if they cut holes.
 pub(crate) static PASS: Pass = Pass {
     name: "visibility",
     source: include_str!("../../shaders/visibility.wgsl"),

@@ -1,21 +1,21 @@
 //! The number of dispatches that trace a frame's paths.
 //!
-//! A dispatch that takes seconds is ended as hung by most systems, and what it had traced is lost; lavapipe of Mesa 22.3 ends all loops
-//! of an invocation after 65 535 rounds in total, and the picture goes dark without a word. So a dispatch traces no more paths than
-//! can be expected to stay well below that.
+//! Most systems end a dispatch that takes seconds as hung, and its paths are lost. lavapipe of Mesa 22.3 ends all loops of an
+//! invocation after 65 535 rounds in total, and the picture goes dark without a message. So a dispatch traces only as many paths as
+//! are expected to stay well below both limits.
 
 use super::SceneContents;
 use crate::settings::TracerSettings;
 
-/// Rounds of all loops that a pixel's paths may be expected to take in one dispatch: an eighth of the number that lavapipe allows,
-/// because the paths of some pixels take several times as long as those of others.
+/// Expected rounds of all loops for a pixel's paths in one dispatch, at most: an eighth of lavapipe's limit, because the paths of some
+/// pixels take several times as long as those of others.
 const MOST_ROUNDS: u32 = 8192;
 
-/// Rounds that a ray takes for each level of the trees. By this, a dispatch traces 17 paths over `pillars`, where light was lost from
-/// somewhere between 64 and 256 on (docs/performance.md).
+/// Rounds of a ray for each level of the trees. With this number, a dispatch traces 17 paths over `pillars`; light was lost there
+/// from somewhere between 64 and 256 paths on (docs/performance.md).
 const ROUNDS_PER_LEVEL: u32 = 4;
 
-/// Bounces that a path may be expected to go on for once Russian roulette has begun, which ends at least 1 in 20 at each.
+/// Expected bounces of a path, at most, once Russian roulette has begun, which ends at least 1 in 20 paths at each bounce.
 const ROULETTE_REACH: u32 = 20;
 
 /// A frame's paths, divided among dispatches.
@@ -30,10 +30,10 @@ impl Batches {
     /// The smallest safe number of dispatches.
     pub fn of(contents: &SceneContents, tracer: &TracerSettings) -> Self {
         let rounds_per_ray = if contents.few_triangles { 1 } else { 1 + ROUNDS_PER_LEVEL * contents.levels };
-        // One towards a light and one onwards from each surface.
+        // Each surface sends one ray towards a light and one onwards.
         let surfaces = 1 + tracer.bounces.min(tracer.roulette.saturating_add(ROULETTE_REACH));
         let rounds_per_surface = contents.environment_run.saturating_add(2 * rounds_per_ray);
-        // Where surfaces blend, each path begins with a ray from the camera.
+        // If surfaces blend, each path begins with a ray from the camera.
         let begins = if contents.alpha_blend { rounds_per_ray } else { 0 };
         let rounds = surfaces.saturating_mul(rounds_per_surface).saturating_add(begins);
         let most = (MOST_ROUNDS / rounds.max(1)).max(1);

@@ -5,8 +5,8 @@
 pub struct Changes {
     /// The camera: place, direction, projection or jitter.
     pub camera: bool,
-    /// Anything else that decides what a path sees: surfaces, materials, lights, and how paths are traced. While it is unchanged, a
-    /// repeated path finds what it found, wherever the camera is: the temporal gradient is 0.
+    /// Anything else that decides the light of a path: surfaces, materials, lights, and the settings of tracing. While it is unchanged,
+    /// a repeated path finds the same light, wherever the camera is: the temporal gradient is 0.
     pub scene: bool,
 }
 

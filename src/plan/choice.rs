@@ -6,12 +6,12 @@ use super::{Changes, Decision, Feature, HostInputs};
 use crate::settings::{self, Blend, FilterSettings, Kernel, Mode, Settings, Stops, Variance};
 use Feature::*;
 
-/// A feature, true if it is in, and the reasons for being in and for being out.
+/// A feature, true if it is included, and the reasons for including it and for leaving it out.
 type Row = (Feature, bool, [&'static str; 2]);
 
 #[cfg(feature = "path-tracer")]
 const FEW_TRIANGLES: [&str; 2] = ["so few, on a processor, that testing each is faster", "a tree is faster"];
-const OBJECTS: [&str; 2] = ["objects are told apart in time", "all is taken for one object"];
+const OBJECTS: [&str; 2] = ["objects are told apart in time", "all surfaces count as one object"];
 const UNFILTERED: [&str; 2] = ["the mode shows the samples", "the mode filters"];
 const ACCUMULATE: [&str; 2] = ["the mode is the mean over frames", "the mode shows single frames"];
 
@@ -38,12 +38,12 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
         (
             FoldedImages,
             contents.textures && contents.folded_images,
-            ["images are larger than a storage binding: a texture holds them", "a buffer holds what images there are"],
+            ["images are larger than a storage binding: a texture holds them", "a buffer holds the images"],
         ),
         (
             ShadingNormals,
             contents.shading_normals,
-            ["a mesh has normals", "no mesh has: cross products of the edges do"],
+            ["a mesh has normals", "no mesh has normals: cross products of edges replace them"],
         ),
         (
             VertexColors,
@@ -63,10 +63,10 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
         (PunctualLights, contents.punctual_lights, ["there are lights without area", "there is no light without area"]),
         (EnvironmentLight, contents.environment, ["the environment is not black", "the environment is black"]),
         (Albedo, true, ["light is filtered without the surfaces' textures", ""]),
-        (DirectEmission, glows, ["some surface or the sky is seen to emit", "nothing that is seen emits"]),
+        (DirectEmission, glows, ["a visible surface or the sky emits", "nothing visible emits"]),
         (LightSamplesOnly, sampling == Sampling::Lights, ["the settings say so", "scattered rays find light too"]),
         (ScatteredRaysOnly, sampling == Sampling::Scattered, ["the settings say so", "lights are sampled too"]),
-        (LaterPaths, divided, ["a dispatch of all paths might be taken for hung", "one dispatch traces all paths"]),
+        (LaterPaths, divided, ["a dispatch of all paths might be ended as hung", "one dispatch traces all paths"]),
         (Unfiltered, settings.mode != Mode::Denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
@@ -92,37 +92,37 @@ pub(super) fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes)
         (PackedNormals, inputs.packed_normals, ["normals are one word", "normals have channels"]),
         (PreviousDepth, inputs.previous_depth, ["previous depths are given", "no previous depth is given"]),
         (HostMotion, copied_motion.is_none(), ["it is read once", copied_motion.unwrap_or_default()]),
-        (HostLight, copied_light.is_none(), ["it is read as it came", copied_light.unwrap_or_default()]),
+        (HostLight, copied_light.is_none(), ["it is read in place", copied_light.unwrap_or_default()]),
         (Objects, inputs.instances, OBJECTS),
         (FloatObjects, inputs.instances && inputs.float_instances, ["instances are floats", "no instance is a float"]),
         (Albedo, inputs.albedo, ["an albedo is given", "no albedo is given: textures are filtered with the light"]),
         (DirectEmission, inputs.emission, ["emission is given", "no emission is given"]),
         (Modulated, modulated, ["radiance comes with albedo and emission", "radiance is the light alone"]),
-        (Background, denoise, ["what misses is shown as it is", "all is shown as it is"]),
+        (Background, denoise, ["misses are shown unfiltered", "everything is shown unfiltered"]),
         (LuminancePairs, pairs && inputs.luminance_pairs, ["pairs are luminances", "no pair is a luminance"]),
         (StratumPairs, pairs && inputs.stratum_pairs, ["there is one pair per stratum", "pairs stand in their pixels"]),
         (Confidence, lambda && inputs.confidence, ["λ is given as 1 − λ", "no confidence is given"]),
-        (MissingSamples, denoise, ["a renderer's pixel may be no number", "no history is kept"]),
+        (MissingSamples, denoise, ["a renderer's pixel may not be a number", "no history is kept"]),
         (RepeatedNoise, denoise, ["a renderer's noise may be the same in every frame", "no history is kept"]),
-        (Diagnostics, inputs.diagnostics, ["cleaned input is counted", "nobody asked for counts"]),
+        (Diagnostics, inputs.diagnostics, ["cleaned input is counted", "no counts are requested"]),
         (Unfiltered, !denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
     with_filter(&rows, source, [pairs && inputs.pairs_in_place, inputs.views], settings, changes)
 }
 
-/// The reasons for a copy of a host's motion and of its light, if there is one.
+/// The reasons for copying a host's motion and its light, if they are copied.
 fn why_copies(inputs: &HostInputs, reshade: bool) -> [Option<&'static str>; 2] {
     let reasons = [
         (reshade, "a copy is kept: repeated paths need it, or the last frame's"),
-        (inputs.diagnostics, "a copy is kept: what is cleaned is counted once"),
+        (inputs.diagnostics, "a copy is kept: cleaned input is counted once"),
         (inputs.views, "a copy is kept for views"),
     ];
     let why = reasons.into_iter().find(|(holds, _)| *holds).map(|(_, why)| why);
     [why, why.or(inputs.in_target.then_some("a copy is kept: a shader cannot read what it writes"))]
 }
 
-/// The rows, and those of the filter if the mode filters. `given` says whether pairs stand in place, and whether views are kept.
+/// The rows, with those of the filter if the mode filters. `given` tells if pairs stand in place, and if views are kept.
 fn with_filter(
     rows: &[Row],
     source: settings::Gradient,
@@ -145,14 +145,14 @@ fn filter(
 ) -> Vec<Row> {
     use settings::Gradient as Source;
     let strata = !matches!(source, Source::Lambda | Source::Off);
-    // In an unchanged scene a repeated path finds what it found: δ is 0, and nothing has to be measured.
+    // In an unchanged scene a repeated path finds the same light: δ is 0, and needs no measurement.
     let gradient = strata && changes.scene;
     let reshade = gradient && source == Source::Reshade;
     let pairs = gradient && source == Source::Pairs;
     let statistics = gradient && source == Source::Statistics;
     let why_not =
         if strata && !changes.scene { "nothing changed in the scene: the gradient is 0" } else { "no gradient is set" };
-    let otherwise = if gradient { "the gradient is measured otherwise" } else { why_not };
+    let otherwise = if gradient { "the gradient has another source" } else { why_not };
     let spatial = filter.iterations > 0;
     vec![
         (
@@ -169,7 +169,7 @@ fn filter(
         (
             Statistics,
             statistics,
-            ["the gradient is what new samples differ by from their histories, less the noise", otherwise],
+            ["the gradient is the difference of new samples and their histories, less the noise", otherwise],
         ),
         (
             SignedGradient,
@@ -179,14 +179,14 @@ fn filter(
         (
             AcrossSurfaces,
             gradient && filter.gradient_across_surfaces,
-            ["λ heeds what is around", "λ is that of the surface alone, or 0"],
+            ["λ heeds nearby paths", "λ is that of the surface alone, or 0"],
         ),
         (ExternalLambda, source == Source::Lambda, ["λ is the host's", "the host gives no λ"]),
         // An analytic pair is blind to what blocks a light: its ratio would rescale shadows too.
         (
             HistoryRatio,
             (reshade || pairs || statistics) && filter.history_ratio,
-            ["the history is rescaled by what paths show", "the history is blended as it is"],
+            ["the history is rescaled by the paths' ratio", "the history is blended as it is"],
         ),
         (BlendByLambda, filter.blend == Blend::Lambda, ["α' = (1 − λ)·α + λ is set", "α' = 1/n is set"]),
         (
@@ -210,13 +210,13 @@ fn filter(
             ["published edge stops are set", "noise-subtracted stops are set"],
         ),
         (FullKernel, filter.kernel == Kernel::Full, ["25 taps are set", "13 taps are set"]),
-        (KeepWeights, views, ["α and λ are kept for views", "no view is asked for: α and λ are not kept"]),
+        (KeepWeights, views, ["α and λ are kept for views", "no views are requested: α and λ are not kept"]),
         (LocalLinearFit, filter.local_linear_fit, ["a plane is fitted to the taps", "taps are averaged"]),
         (
             RidgeByNoise,
             filter.local_linear_fit && filter.ridge_noise > 0.0,
             [
-                "the plane follows a slope as far as that is not noise",
+                "the plane follows a slope as far as it exceeds the noise",
                 "the plane's ridge is constant, or there is none",
             ],
         ),
@@ -233,7 +233,7 @@ fn filter(
         (
             Outliers,
             filter.outlier_limit > 0.0,
-            ["a sample far above its surroundings is not believed", "no limit of outliers is set"],
+            ["a sample far above its surroundings loses weight", "no limit of outliers is set"],
         ),
     ]
 }

@@ -15,9 +15,9 @@ pub struct SceneContents {
     pub vertex_colors: bool,
     /// Some surface is not purely Lambertian.
     pub specular: bool,
-    /// Some material is cut out by its opacity, or has no back faces.
+    /// Some material has holes where its opacity is low, or no back faces.
     pub alpha_mask: bool,
-    /// Some material covers as much as its opacity.
+    /// Some material is partly transparent, by its opacity.
     pub alpha_blend: bool,
     /// Triangles emit light.
     pub emitters: bool,
@@ -25,11 +25,11 @@ pub struct SceneContents {
     pub punctual_lights: bool,
     /// There is an environment that is not black.
     pub environment: bool,
-    /// Texels of the environment among which a light sample chooses at the end, one by one.
+    /// Number of texels of the environment that the last step of a light sample chooses from, one by one.
     pub environment_run: u32,
     /// Some material is shown unlit.
     pub unlit: bool,
-    /// The triangles are so few, and the adapter is the CPU, that a test of each is faster than a tree.
+    /// A test of each triangle is faster than a tree, because there are few and the adapter is the CPU.
     pub few_triangles: bool,
     /// Levels of the trees: the more there are, the fewer paths a dispatch traces.
     pub levels: u32,
@@ -38,7 +38,7 @@ pub struct SceneContents {
 }
 
 impl SceneContents {
-    /// Everything that the materials and lights of a scene with this layout in memory can have.
+    /// Returns everything that the materials and lights of a scene with this layout in memory can have.
     #[must_use]
     pub fn everything(self) -> Self {
         Self {
@@ -65,7 +65,7 @@ pub struct HostInputs {
     pub mapped_normals: bool,
     /// Normals are two 16-bit numbers in one word.
     pub packed_normals: bool,
-    /// The depth that each point had is given.
+    /// The previous depth of each point is given.
     pub previous_depth: bool,
     /// Objects are numbered.
     pub instances: bool,
@@ -73,7 +73,7 @@ pub struct HostInputs {
     pub float_instances: bool,
     /// There is an albedo.
     pub albedo: bool,
-    /// Emission is given apart.
+    /// Emission is given separately.
     pub emission: bool,
     /// The radiance was divided by the albedo and has no emission.
     pub demodulated: bool,
@@ -83,7 +83,7 @@ pub struct HostInputs {
     pub lambda: bool,
     /// The gradient's pairs are luminances.
     pub luminance_pairs: bool,
-    /// There is one pair per stratum instead of an image with mostly none.
+    /// There is one pair per stratum, instead of an image with no pair in most pixels.
     pub stratum_pairs: bool,
     /// The pairs' paths stand in the radiance in place of their pixels' own paths.
     pub pairs_in_place: bool,
@@ -93,6 +93,6 @@ pub struct HostInputs {
     pub diagnostics: bool,
     /// The images of a frame are kept for views, see [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
     pub views: bool,
-    /// A view of the light is of the target's own texture.
+    /// A view of the light shares the target's texture.
     pub in_target: bool,
 }

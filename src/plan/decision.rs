@@ -7,7 +7,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Decision {
-    /// The feature that it is about.
+    /// The feature in question.
     pub feature: Feature,
     /// True if the feature is in.
     pub included: bool,
@@ -16,7 +16,7 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// A decision with the first reason if the feature is in, with the second if it is out.
+    /// Makes a decision, with the first reason if the feature is in, with the second if it is out.
     pub(super) fn new(feature: Feature, included: bool, [why, why_not]: [&'static str; 2]) -> Self {
         Self { feature, included, reason: if included { why } else { why_not } }
     }

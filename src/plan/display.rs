@@ -4,7 +4,7 @@ use super::{Grid, Plan, Slot};
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
 
-/// The picture that memory is quoted for.
+/// The size of the picture that memory is quoted for.
 const FULL_HD: [u32; 2] = [1920, 1080];
 
 impl fmt::Display for Plan {

@@ -20,7 +20,7 @@ impl Kind {
         Self { format: image.format(), grid: image.grid() }
     }
 
-    /// Bytes for a picture of this size.
+    /// Bytes of a texture for a picture of this size.
     pub fn bytes(self, size: [u32; 2]) -> u64 {
         let [width, height] = self.grid.extent(size).map(u64::from);
         width * height * u64::from(self.format.block_copy_size(None).unwrap_or(0))
@@ -30,15 +30,15 @@ impl Kind {
 /// The textures of a denoiser, by number, and their contents.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory {
-    /// The kind of each texture; `None` where one was given up.
+    /// The kind of each texture; `None` if it was given up.
     textures: Vec<Option<Kind>>,
-    /// Textures that nothing may be written into yet.
+    /// Textures that must not be written to yet.
     busy: BTreeSet<usize>,
     /// The textures of the last frame's images.
     before: BTreeMap<Image, usize>,
     /// Textures that are bound in place of the last frame's images when there is no last frame. No result depends on their contents.
     absent: BTreeMap<Image, usize>,
-    /// The textures in which this frame's images are, or were.
+    /// The textures that hold, or held, this frame's images.
     now: BTreeMap<Image, usize>,
     /// The images of this frame whose texture another image has taken since.
     overwritten: BTreeSet<Image>,
@@ -49,7 +49,7 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// The images of the last frame that a new frame finds. An image that the last frame did not write is left from the one before.
+    /// The images of the last frame that a new frame finds. If the last frame did not write an image, it is from the frame before.
     fn left(&self) -> BTreeMap<Image, usize> {
         let mut left = self.before.clone();
         if self.complete {
@@ -76,8 +76,8 @@ impl Memory {
         self.complete = false;
     }
 
-    /// Assigns textures to the images of `steps[from..]`; the steps before have theirs. `over(step, slot)` says whether a slot is used for the
-    /// last time in a step, so that its texture is free for later steps.
+    /// Assigns textures to the images of `steps[from..]`; earlier steps have theirs. `over(step, slot)` is true if a step is the last
+    /// to use a slot, so that its texture is free for later steps.
     pub fn place(&mut self, steps: &[Step], from: usize, over: impl Fn(usize, Slot) -> bool) {
         for (i, step) in steps.iter().enumerate() {
             for &Bound { slot, .. } in step.bindings.iter().filter(|_| i >= from) {
@@ -101,13 +101,13 @@ impl Memory {
         }
     }
 
-    /// Ends a frame, which leaves `needed` for the next.
+    /// Ends a frame. It leaves the images in `needed` for the next.
     pub fn end(&mut self, needed: BTreeSet<Image>) {
         self.needed = needed;
         self.complete = true;
     }
 
-    /// Drops a frame that was begun: the next one goes on from the one before.
+    /// Drops a frame that was begun: the next one continues the frame before.
     pub fn abandon(&mut self) {
         self.now.clear();
         self.complete = false;
@@ -133,12 +133,12 @@ impl Memory {
         }
     }
 
-    /// True if this frame is over and was not abandoned.
+    /// True if this frame was ended and not abandoned.
     pub fn is_complete(&self) -> bool {
         self.complete
     }
 
-    /// True if this frame's image is still there when the frame is over.
+    /// True if this frame's image is still there at its end.
     pub fn holds(&self, image: Image) -> bool {
         self.now.contains_key(&image) && !self.overwritten.contains(&image)
     }
@@ -148,7 +148,7 @@ impl Memory {
         &self.textures
     }
 
-    /// A texture that may be overwritten, busy from now on.
+    /// Takes a texture that may be overwritten, and marks it as busy.
     fn take(&mut self, kind: Kind) -> usize {
         let free = (0..self.textures.len()).find(|i| self.textures[*i] == Some(kind) && !self.busy.contains(i));
         let texture = free.unwrap_or_else(|| match self.textures.iter().position(Option::is_none) {
@@ -175,7 +175,7 @@ pub(crate) fn needed(images: &[(Image, bool)]) -> BTreeSet<Image> {
 }
 
 impl Plan {
-    /// Bytes of the textures that frames of this plan take turns in, for a picture of this size. With `views`, as
+    /// Bytes of the textures that frames of this plan need, for a picture of this size. `views` is
     /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
     pub fn bytes(&self, size: [u32; 2], views: bool) -> u64 {
         self.textures(views).iter().map(|kind| kind.bytes(size)).sum()
@@ -184,7 +184,7 @@ impl Plan {
     /// The kinds of those textures.
     fn textures(&self, views: bool) -> Vec<Kind> {
         let (mut memory, needed) = (Memory::default(), needed(&self.images()));
-        // The first frame has no last one; from the second on all are alike.
+        // The first frame has no last one; all others are alike.
         for _ in 0..2 {
             memory.begin();
             let begun = self.surface_steps();
@@ -195,8 +195,7 @@ impl Plan {
         memory.textures().iter().copied().flatten().collect()
     }
 
-    /// True if a slot is used for the last time in the step of this number. With `views`, all images of this frame are kept until
-    /// the next.
+    /// True if the step of this number is the last to use a slot. With `views`, all images of this frame are kept until the next.
     pub(crate) fn is_over(&self, step: usize, slot: Slot, needed: &BTreeSet<Image>, views: bool) -> bool {
         let used = slots(&self.steps[step + 1..]).any(|other| other == slot);
         let written = |image| slots(&self.steps).any(|slot| slot == Slot::Now(image));
@@ -215,7 +214,7 @@ mod tests {
     use crate::plan::{Changes, HostInputs};
     use crate::{FilterSettings, Gradient, Mode, Settings};
 
-    /// Plans of a host's frames that differ in what they keep, each with what it is if everything changes.
+    /// Plans of a host's frames that keep different images, each with the plan for the case that everything changes.
     fn plans() -> Vec<(Plan, Plan)> {
         let gradients = [Gradient::Reshade, Gradient::Pairs, Gradient::Statistics, Gradient::Lambda, Gradient::Off];
         let filters = gradients.map(|gradient| FilterSettings { gradient, ..Default::default() });
@@ -237,8 +236,8 @@ mod tests {
         all.iter().flat_map(|(s, t)| changes.map(|c| (plan(s, t, c), plan(s, t, Changes::ANY)))).collect()
     }
 
-    /// Runs frames of plans in turn, and checks at each read that the texture holds just the image that is read, of the frame
-    /// that is meant. The contents are tracked here, not in [`Memory`].
+    /// Runs frames of plans in turn, and checks at each read that the texture holds the right image of the right frame. The contents
+    /// are tracked here, not in [`Memory`].
     fn follow(frames: &[&(Plan, Plan)], views: bool) {
         let mut memory = Memory::default();
         let mut contents: BTreeMap<usize, (Image, usize)> = BTreeMap::new();
@@ -297,7 +296,7 @@ mod tests {
     fn no_image_is_written_over_while_it_is_needed() {
         for same in plans().chunks_exact(3) {
             for (plan, views) in same.iter().flat_map(|plan| [(plan, false), (plan, true)]) {
-                // Nothing is known not to have changed before there is a frame.
+                // In the first frame, anything may have changed.
                 follow(&[&same[0], plan, plan, plan, plan], views);
             }
         }
@@ -312,10 +311,10 @@ mod tests {
         }
     }
 
-    /// docs/leaving-out.md has these: images per pixel and, of strata, per nine.
+    /// docs/leaving-out.md quotes these: images per pixel, and images of strata per nine pixels.
     #[test]
     fn frames_take_no_more_than_the_images_that_are_alive_at_once() {
-        // Whole strata.
+        // The size is in whole strata.
         let size = [300, 300];
         let bytes_of = |filter: FilterSettings, inputs: HostInputs| {
             let settings = Settings { filter, ..Settings::adaptive() };
@@ -325,10 +324,10 @@ mod tests {
         let bytes = |gradient, inputs| {
             let believing = FilterSettings { gradient, outlier_limit: 0.0, ..Default::default() };
             let bare = bytes_of(FilterSettings { steadiness: 0.0, ..believing.clone() }, inputs);
-            // The output, now and before.
+            // Steadiness adds the output, now and before.
             let steady = bytes_of(believing, inputs);
             assert_eq!(steady, bare + 16.0, "{gradient:?}");
-            // The strata's candidates and limits, now and before; what is counted on the way gives way to others.
+            // The limit adds the strata's candidates and limits, now and before. The counts in between give way to other images.
             let limited = bytes_of(FilterSettings { gradient, ..Default::default() }, inputs);
             let records = match gradient {
                 Gradient::Off | Gradient::Lambda => 4.0,
@@ -339,19 +338,19 @@ mod tests {
         };
         let alone = HostInputs::default();
         let all = HostInputs { albedo: true, emission: true, ..alone };
-        // Guide and history, each now and before.
+        // A constant α needs guide and history, each now and before.
         assert_eq!(bytes(Gradient::Off, alone), 32.0);
         assert_eq!(bytes(Gradient::Off, all), 32.0);
         assert_eq!(bytes(Gradient::Lambda, alone), 32.0);
-        // And the strata's records, their pairs, which two by two take turns, and the host's pairs of half the size.
+        // Pairs add the strata's records, their pairs, which take turns two by two, and the host's pairs of half the size.
         let strata = 5.0 * 16.0 / 9.0;
         assert_eq!(bytes(Gradient::Pairs, alone), 32.0 + strata + 16.0 / 9.0);
-        // And the strata's records, three levels of means, in two images each, and the one that the next is made from.
+        // Statistics add the strata's records, three levels of means in two images each, and the image for the next level.
         assert_eq!(bytes(Gradient::Statistics, alone), 32.0 + 9.0 * 16.0 / 9.0);
         assert_eq!(bytes(Gradient::Automatic, all), 32.0 + 9.0 * 16.0 / 9.0);
-        // And motion and radiance; the last frame's gives way to the history.
+        // Re-shading adds motion and radiance; the last frame's motion and radiance give way to the history.
         assert_eq!(bytes(Gradient::Reshade, alone), 48.0 + strata);
-        // And the albedo of both frames, and the emission.
+        // An albedo adds that of both frames, and an emission itself.
         assert_eq!(bytes(Gradient::Reshade, all), 72.0 + strata);
     }
 

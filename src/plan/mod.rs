@@ -2,8 +2,8 @@
 //! or of a host's views, and of the changes since the last frame.
 //!
 //! The plan lists the passes in order, each with the features that are compiled into its shader and the images that it reads
-//! and writes, and a reason for everything that is in or left out. [`Denoiser`](crate::Denoiser) only carries it out. Printed
-//! (`{plan}`) it is a table; [`Plan::graph`] draws it.
+//! and writes, and a reason for everything that is in or left out. [`Denoiser`](crate::Denoiser) only carries it out. The plan prints
+//! as a table (`{plan}`); [`Plan::graph`] draws it.
 
 #[cfg(feature = "path-tracer")]
 mod batches;
@@ -45,7 +45,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The passes that a path-traced frame needs.
+    /// Plans the passes that a path-traced frame needs.
     #[cfg(feature = "path-tracer")]
     pub fn path_traced(contents: &SceneContents, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
         let mut plan = Self::of(choice::traced(contents, settings, changes), target);
@@ -59,7 +59,7 @@ impl Plan {
         plan
     }
 
-    /// The passes that a frame of the host's own renderer needs.
+    /// Plans the passes that a frame of the host's own renderer needs.
     pub fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
         let mut plan = Self::of(choice::hosted(inputs, settings, changes), target);
         plan.run(&ingest_surface::PASS);
@@ -78,7 +78,7 @@ impl Plan {
         plan
     }
 
-    /// No steps yet, for these decisions.
+    /// A plan without steps yet, for these decisions.
     fn of(mut decisions: Vec<Decision>, target: TextureFormat) -> Self {
         let narrow = target == TextureFormat::Rgba16Float;
         decisions.push(Decision::new(Feature::TargetF16, narrow, ["the target is 16-bit", "the target is 32-bit"]));
@@ -95,24 +95,24 @@ impl Plan {
         self.steps.push(Step::new(pass, self.features));
     }
 
-    /// Appends a pass that reads a result which one of several images holds.
+    /// Appends a pass that reads a result that one of several images holds.
     fn run_on(&mut self, pass: &'static Pass, image: Option<Image>) {
         self.steps.push(Step::nth(pass, self.features, Nth::of(image)));
     }
 
-    /// Appends so many iterations of a pass.
+    /// Appends a number of iterations of a pass.
     fn iterate(&mut self, pass: &'static Pass, iterations: u32) {
         let features = self.features;
         self.steps.extend((0..iterations).map(|i| Step::nth(pass, features, Nth::iteration(i))));
     }
 
-    /// True if the mean goes on over all frames there were, however many: nothing changed, and α is adaptive.
+    /// True if the mean continues over all frames so far, however many: nothing changed, and α is adaptive.
     pub(crate) fn converges(&self) -> bool {
         self.has(Feature::Still) && self.has(Feature::Unchanged) && !self.has(Feature::BlendByLambda)
     }
 
     /// The number of steps that take in a host's surfaces, which [`Denoiser::begin_frame`](crate::Denoiser::begin_frame) records.
-    /// Until the others are known, nothing that they may need is written over.
+    /// While the other steps are unknown, no image that they may need is overwritten.
     pub fn surface_steps(&self) -> usize {
         let surface = [&ingest_surface::PASS, &gradient_sample::PASS, &reshade::PASS];
         self.steps.iter().take_while(|step| surface.contains(&step.pass)).count()

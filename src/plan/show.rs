@@ -6,8 +6,8 @@ use crate::{Error, View};
 use wgpu::TextureFormat;
 
 impl Plan {
-    /// The step that shows a view of the images that this plan's steps have left, in a target of this format.
-    /// `holds` says which of these images are still there.
+    /// Makes the step that shows a view of the images that this plan's steps have left, in a target of this format. `holds` is true for
+    /// images that are still there.
     pub(crate) fn show(&self, view: View, target: TextureFormat, holds: impl Fn(Image) -> bool) -> Result<Step, Error> {
         let frame = Shown {
             features: self.features,
