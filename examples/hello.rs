@@ -3,7 +3,7 @@
 use asvgf::wgpu::*;
 use asvgf::{Camera, Denoiser, DenoiserDescriptor, Frame, View, image_io, scene};
 
-/// A copy from a texture to a buffer wants rows of a multiple of 256 bytes: 4 × 640 is one.
+/// A copy from a texture to a buffer needs rows of a multiple of 256 bytes: 4 × 640 is one.
 const SIZE: Extent3d = Extent3d { width: 640, height: 360, depth_or_array_layers: 1 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -17,7 +17,7 @@ WIDTH, HEIGHT, FRAMES, FOV_Y = 160, 90, 8, math.radians(45)
 
 
 def write(path, **layers):
-    """Arrays of height × width (× components) as 32-bit floats: color, albedo, emission, normal, depth, motion, id. What you do not have, leave out."""
+    """Arrays of height × width (× components) as 32-bit floats: color, albedo, emission, normal, depth, motion, id. Leave out those that you lack."""
     components = dict(color='RGB', albedo='RGB', emission='RGB', normal='XYZ', depth='Z', motion='XY', id='I')
     channels = {}
     for name, image in layers.items():
@@ -45,8 +45,8 @@ def frames():
         checks = (np.floor(point[..., 0]) + np.floor(point[..., 2])) % 2
         albedo = np.where(is_floor, 0.2 + 0.6 * checks, 0.7)[..., None] * np.ones(3)
         light = 1.0 / (1.0 + 0.1 * np.sum((point - [0.0, 2.0, -4.0]) ** 2, -1))
-        noise = rng.exponential(size=(HEIGHT, WIDTH))  # another one in each frame
-        # previous − current position in pixels, x right, y down: the camera was 0.05 to the left, where all was further right.
+        noise = rng.exponential(size=(HEIGHT, WIDTH))  # other noise in each frame
+        # previous − current position in pixels, x right, y down: the camera was 0.05 to the left, so everything was further right.
         moved = 0.05 / depth / (tangent * WIDTH / HEIGHT) * WIDTH / 2
         motion = np.stack([moved, np.zeros_like(moved)], -1)
         yield dict(color=albedo * (light * noise)[..., None], albedo=albedo, normal=normal, depth=depth, motion=motion), eye

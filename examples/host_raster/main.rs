@@ -1,5 +1,5 @@
-//! The smallest host: its own G-buffer, its own noisy shading, one call before and one after it. Writes the last of 40 frames to
-//! `out/host_noisy.png` and `out/host_denoised.png`: `cargo run --release --example host_raster`.
+//! The smallest host: its own G-buffer, its own noisy shading, one call before the shading and one after it. Writes the last of 40
+//! frames to `out/host_noisy.png` and `out/host_denoised.png`: `cargo run --release --example host_raster`.
 
 mod renderer;
 
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The bytes of a picture whose rows need no padding: their length is a multiple of 256.
+/// Reads the bytes of a picture whose rows need no padding, because their length is a multiple of 256.
 fn read(device: &wgpu::Device, queue: &wgpu::Queue, picture: &wgpu::Texture) -> Result<Vec<u8>, Box<dyn Error>> {
     let [row, height] = [4 * picture.width(), picture.height()];
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {

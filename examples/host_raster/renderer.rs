@@ -1,10 +1,10 @@
-//! A tiny renderer on the GPU, see renderer.wgsl: what stands for your own.
+//! A tiny renderer on the GPU, in the place of your own, see renderer.wgsl.
 
 use asvgf::wgpu::util::{BufferInitDescriptor, DeviceExt};
 use asvgf::wgpu::*;
 use asvgf::{Matrices, RESHADE_WGSL, Reshade};
 
-/// Where everything is in a frame.
+/// The places of all objects in a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     pub eye: [f32; 3],
@@ -41,7 +41,7 @@ impl Moment {
         [0.4 * size[0] as f32 / size[1] as f32, 0.4]
     }
 
-    /// View and projection, right-handed; depth is reversed and endless, which the denoiser does not mind.
+    /// View and projection matrices, right-handed. Depth is reversed and has no far plane, both of which the denoiser accepts.
     pub fn matrices(&self, size: [u32; 2]) -> Matrices {
         let [right, up, forward] = self.axes();
         let along = |axis: [f32; 3]| -(0..3).map(|i| axis[i] * self.eye[i]).sum::<f32>();
@@ -59,7 +59,7 @@ impl Moment {
         }
     }
 
-    /// `View` of renderer.wgsl.
+    /// The uniform `View` of renderer.wgsl.
     fn view(&self, size: [u32; 2]) -> [[f32; 4]; 4] {
         let [right, up, forward] = self.axes();
         let [x, y] = Self::tangents(size);
@@ -67,7 +67,7 @@ impl Moment {
     }
 }
 
-/// Pipelines and images.
+/// The renderer's pipelines and images.
 pub struct Renderer {
     device: Device,
     size: [u32; 2],
@@ -111,7 +111,7 @@ impl Renderer {
         }
     }
 
-    /// The shader's view of a moment and the one before.
+    /// Makes the shader's uniform buffer for a moment and the one before.
     pub fn scene(&self, now: &Moment, before: &Moment) -> Buffer {
         let ball = |m: &Moment| [m.ball[0], m.ball[1], m.ball[2], 0.7];
         let mut words = [now.view(self.size), before.view(self.size)].concat();
@@ -124,14 +124,14 @@ impl Renderer {
         })
     }
 
-    /// Depth, normals, motion and albedo.
+    /// Draws depth, normals, motion and albedo.
     pub fn draw(&self, encoder: &mut CommandEncoder, scene: &Buffer) {
         let views = [&self.depth, &self.normal, &self.motion, &self.albedo].map(BindingResource::TextureView);
         let scene = [scene.as_entire_binding()];
         self.run(encoder, &self.draw, scene.into_iter().chain(views));
     }
 
-    /// One noisy sample of the light per pixel.
+    /// Shades with one noisy sample of the light per pixel.
     pub fn shade(&self, encoder: &mut CommandEncoder, scene: &Buffer, reshade: &Reshade) {
         let buffers = [scene.as_entire_binding(), reshade.frame.as_entire_binding()];
         let views =
@@ -160,7 +160,7 @@ impl Renderer {
     }
 }
 
-/// An image that shaders write and read.
+/// Makes an image that shaders write and read.
 pub fn image(device: &Device, size: [u32; 2], format: TextureFormat) -> TextureView {
     device
         .create_texture(&TextureDescriptor {

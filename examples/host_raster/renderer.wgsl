@@ -1,6 +1,6 @@
 // A tiny renderer: a floor, a ball and a round lamp above them, drawn without geometry. It follows asvgf's `RESHADE_WGSL`.
 
-// Directions that lead to the right and to the upper edge of the image, and to its centre.
+// Vectors to the right and upper edge of the image, and to its centre.
 struct View {
     eye: vec3<f32>,
     right: vec3<f32>,
@@ -11,10 +11,10 @@ struct View {
 struct Scene {
     view: View,
     view_before: View,
-    // Centre and radius, now and in the last frame.
+    // Centre and radius of the ball, now and in the last frame.
     ball: vec4<f32>,
     ball_before: vec4<f32>,
-    // Centre and radius; it faces down.
+    // Centre and radius of the lamp, which faces down.
     lamp: vec4<f32>,
     lamp_radiance: vec4<f32>,
 }
@@ -75,7 +75,7 @@ fn draw(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let view = scene.view;
     let point = (vec2<f32>(id.xy) + 0.5) / vec2<f32>(size) * 2.0 - 1.0;
-    // Of unit length along the view, so that distances along it are linear depths.
+    // The ray has unit length along the view direction, so that distances along it are linear depths.
     let ray = view.forward + point.x * view.right - point.y * view.up;
     let ball = ball_distance(view.eye, ray);
     let z = min(ball, floor_distance(view.eye, ray));
@@ -88,7 +88,7 @@ fn draw(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let p = view.eye + z * ray;
     let on_ball = ball == z;
-    // Where the point was: a ball does not turn here.
+    // The point's place in the last frame: the ball does not turn here.
     let before = select(p, p - scene.ball.xyz + scene.ball_before.xyz, on_ball);
     let moved = image_point(scene.view_before, before, vec2<f32>(size)) - vec2<f32>(id.xy) - 0.5;
     textureStore(depth_out, id.xy, vec4(z));
@@ -108,7 +108,7 @@ fn shade(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(id.xy >= textureDimensions(guide)) {
         return;
     }
-    // The only line that adaptive filtering asks for. From here on, nothing depends on the pixel.
+    // Adaptive filtering needs this line alone. From here on, nothing depends on the pixel.
     let s = asvgf_surface(asvgf, guide, repeats, shifts, id.xy);
     if !s.hit {
         textureStore(radiance_out, id.xy, vec4(0.3, 0.45, 0.7, 1.0));
@@ -116,7 +116,7 @@ fn shade(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let first = pcg(s.seed_pixel.x ^ pcg(s.seed_pixel.y ^ pcg(s.seed_frame)));
     let random = vec2(f32(first >> 8u), f32(pcg(first) >> 8u)) / 16777216.0;
-    // One shadow ray to a point of the lamp, one to the sky.
+    // Trace one shadow ray to a point of the lamp, and one to the sky.
     let radius = scene.lamp.w * sqrt(random.x);
     let angle = 2.0 * PI * random.y;
     let target_point = scene.lamp.xyz + radius * vec3(cos(angle), 0.0, sin(angle));

@@ -1,31 +1,31 @@
-//! What the user asks for once, beside what is chosen and stays.
+//! Actions that the user asks for once, in contrast to the choices that stay.
 
 use crate::dropped::Files;
 use std::path::PathBuf;
 
-/// Something to do before the next frame.
+/// An action to do before the next frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Action {
-    /// One frame, while time stands still.
+    /// Render one frame while time stands still.
     Step,
     /// Forget all history.
     Reset,
     /// Show another scene: a built-in one or a file.
     Open(String),
-    /// Show what these files in memory are: a scene with what it refers to, or what was saved.
+    /// Open files in memory: a scene with the files that it refers to, or a saved state.
     Receive(Files),
-    /// A quarter of the way around the scene, from one frame to the next.
+    /// Turn a quarter of the way around the scene, from one frame to the next.
     Cut,
-    /// The scene's own camera again.
+    /// Return to the scene's own camera.
     Home,
-    /// Walk: right, up, forward, in parts of the distance to what is looked at.
+    /// Walk to the right, up and forward, by fractions of the distance to the target.
     Walk([f32; 3]),
-    /// Everything as at the start.
+    /// Return everything to its initial state.
     Restore,
-    /// Write what was chosen to a file.
+    /// Write the state to a file.
     Save(PathBuf),
-    /// Read it.
+    /// Read the state from a file.
     Load(PathBuf),
-    /// Write the picture to a file: its name says whether as a picture (PNG) or as numbers (EXR).
+    /// Write the picture to a file. The name's ending selects a picture (PNG) or numbers (EXR).
     Picture(PathBuf),
 }

@@ -1,4 +1,4 @@
-//! The window: panels around the picture, and what they ask for.
+//! The window: panels around the picture, and the actions that they ask for.
 
 use crate::action::Action;
 use crate::camera::Orbit;
@@ -19,7 +19,7 @@ use wgpu::{DeviceType, PollType};
 /// Height of the plots in points.
 const PLOTS: f32 = 190.0;
 
-/// The whole program, whoever draws its window.
+/// The whole program, independent of who draws its window.
 pub struct Demo {
     pub state: State,
     pub picture: Picture,
@@ -29,12 +29,12 @@ pub struct Demo {
     messages: Messages,
     trouble: Trouble,
     adapter: String,
-    /// The scale where none was chosen.
+    /// The scale to use if the user has chosen none.
     scale: f32,
 }
 
 impl Demo {
-    /// Starts with what was chosen before. The error is what to tell the user.
+    /// Starts with a state. The error is a text for the user.
     pub fn new(gpu: &RenderState, state: State) -> Result<Self, String> {
         let trouble = Trouble::of(&gpu.device);
         let mut messages = Messages::default();
@@ -73,9 +73,9 @@ impl Demo {
         self.messages.show(ui.ctx());
     }
 
-    /// Takes what has come from the GPU, without waiting.
+    /// Takes results that have arrived from the GPU, without waiting.
     fn listen(&mut self) {
-        // Callbacks run in here. Browsers run them by themselves.
+        // Natively, callbacks run in this call. Browsers run them on their own.
         let polled = self.picture.embed.gpu.device.poll(PollType::Poll);
         if let (Err(error), false) = (polled, self.trouble.is_lost()) {
             self.messages.error(error.to_string());
@@ -111,7 +111,7 @@ impl Demo {
         }
     }
 
-    /// Does what was asked for.
+    /// Does an action.
     pub fn act(&mut self, action: Action) {
         match action {
             Action::Step => self.picture.step = true,
@@ -148,7 +148,7 @@ impl Demo {
         }
     }
 
-    /// Shows another scene; where that is not possible says why, and the old one stays.
+    /// Shows another scene. If that fails, the old one stays and a message gives the reason.
     fn open(&mut self, stage: Result<Stage, String>, name: String) {
         let opened = stage.and_then(|stage| {
             self.picture.embed.set_scene(&stage.scene).map_err(|error| error.to_string())?;
@@ -158,7 +158,7 @@ impl Demo {
             Ok(stage) => {
                 self.stage = stage;
                 self.picture.start_over();
-                // What moved by name or by hand was the old scene's.
+                // Animations and offsets by hand belonged to the old scene.
                 let Motion { lit, blink, brightness, shake, .. } = self.state.motion;
                 self.state.motion = Motion { lit, blink, brightness, shake, ..Motion::default() };
                 self.state.scene = name;
@@ -171,8 +171,8 @@ impl Demo {
     fn receive(&mut self, files: &Files) {
         let Some(path) = dropped::chief(files) else {
             let names: Vec<String> = files.keys().map(|path| path.display().to_string()).collect();
-            let known = "a .gltf, .glb or .obj file, with those that it refers to, or a saved .json file";
-            return self.messages.error(format!("nothing of {} can be opened: drop {known}", names.join(", ")));
+            let known = "a .gltf, .glb or .obj file, with the files that it refers to, or a saved .json file";
+            return self.messages.error(format!("cannot open {}: drop {known}", names.join(", ")));
         };
         if dropped::is_saved(path) {
             let text = String::from_utf8_lossy(&files[path]);
@@ -183,7 +183,7 @@ impl Demo {
         }
     }
 
-    /// Everything as a file says.
+    /// Adopts the state from a file.
     pub fn adopt(&mut self, state: State) {
         if state.scene != self.state.scene {
             self.open(Stage::open(&state.scene), state.scene.clone());
@@ -191,23 +191,23 @@ impl Demo {
         self.state = State { scene: self.state.scene.clone(), ..state };
     }
 
-    /// Moves the camera by hand, from where it is.
+    /// Moves the camera by hand, from its present place.
     fn orbit(&mut self, change: impl FnOnce(&mut Orbit)) {
         let camera = self.picture.camera().unwrap_or_default();
         change(self.picture.orbit.get_or_insert_with(|| Orbit::from(&camera, self.stage.centre())));
     }
 
-    /// What the user is told, one message a line.
+    /// The messages to the user, one a line.
     pub fn messages(&self) -> String {
         self.messages.text()
     }
 
-    /// Frames that were rendered so far.
+    /// Number of frames rendered so far.
     pub fn frames(&self) -> u32 {
         self.picture.embed.index
     }
 
-    /// Whether a half can be looked at: its film has a frame.
+    /// Returns true if a source can be shown, because its film has a frame.
     pub fn has_frame(&self, source: Source) -> bool {
         self.picture.embed.film(source).is_some_and(|film| film.denoiser.plan().is_some())
     }

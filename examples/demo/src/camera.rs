@@ -4,24 +4,24 @@ use asvgf::Camera;
 use glam::{DVec3, Vec3};
 use std::f32::consts::{FRAC_PI_2, TAU};
 
-/// Radians that a drag across the whole height of the picture turns.
+/// Angle in radians of a drag across the whole height of the picture.
 const TURN: f32 = 3.0;
 
-/// A camera as angles about the point it looks at, +Y up.
+/// A camera as angles about its target, +Y up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
-    /// In double precision, so that it moves smoothly far from the origin.
+    /// Target, in double precision so that the camera moves smoothly far from the origin.
     target: DVec3,
-    /// From +Z towards +X.
+    /// Angle from +Z towards +X.
     yaw: f32,
-    /// Above the horizon.
+    /// Angle above the horizon.
     pitch: f32,
     distance: f32,
     fov_y: f32,
 }
 
 impl Orbit {
-    /// Looking where another camera looks, at a point as far away as the scene's centre.
+    /// Starts from another camera, with a target as far away as the scene's centre.
     pub fn from(camera: &Camera, centre: [f64; 3]) -> Self {
         let (eye, target) = (DVec3::from(camera.eye), DVec3::from(camera.target));
         let forward = (target - eye).normalize_or(DVec3::NEG_Z);
@@ -34,7 +34,7 @@ impl Orbit {
             .level()
     }
 
-    /// Goes around the point; drags are in parts of the picture's height.
+    /// Goes around the target by a drag in fractions of the picture's height.
     pub fn orbit(&mut self, [x, y]: [f32; 2]) {
         *self = Self { yaw: (self.yaw - TURN * x) % TAU, pitch: self.pitch + TURN * y, ..*self }.level();
     }
@@ -42,34 +42,34 @@ impl Orbit {
     /// Turns the head.
     pub fn look(&mut self, [x, y]: [f32; 2]) {
         let eye = self.eye();
-        // At its own pace: one turns as far as what is seen moves with the pointer.
+        // Turning has a pace of its own: the picture has to follow the pointer.
         *self = Self { yaw: self.yaw + self.fov_y * x, pitch: self.pitch - self.fov_y * y, ..*self }.level();
         self.target = eye - (self.backward() * self.distance).as_dvec3();
     }
 
-    /// Moves sideways and up so that what is at the target follows the pointer.
+    /// Moves sideways and up so that the target follows the pointer.
     pub fn pan(&mut self, [x, y]: [f32; 2]) {
         let height = 2.0 * self.distance * (self.fov_y / 2.0).tan();
         self.target += (height * (y * self.up() - x * self.right())).as_dvec3();
     }
 
-    /// Nearer to the target for steps > 0.
+    /// Moves nearer to the target if steps > 0, else farther away.
     pub fn approach(&mut self, steps: f32) {
         self.distance = (self.distance * 0.9_f32.powf(steps)).clamp(1e-3, 1e6);
     }
 
-    /// Walks by parts of the distance to the target: right, up, forward.
+    /// Walks to the right, up and forward, by fractions of the distance to the target.
     pub fn walk(&mut self, [right, up, forward]: [f32; 3]) {
         let way = right * self.right() + up * Vec3::Y - forward * self.backward();
         self.target += (self.distance * way).as_dvec3();
     }
 
-    /// A quarter of the way around, at once.
+    /// Turns a quarter of the way around, at once.
     pub fn cut(&mut self) {
         self.orbit([TAU / 4.0 / TURN, 0.0]);
     }
 
-    /// For the renderer.
+    /// The camera for the renderer.
     pub fn camera(&self) -> Camera {
         Camera { eye: self.eye().to_array(), target: self.target.to_array(), fov_y: self.fov_y, ..Camera::default() }
     }
@@ -91,14 +91,14 @@ impl Orbit {
         self.backward().cross(self.right())
     }
 
-    /// Never straight up or down, where there is no sideways.
+    /// Limits the pitch, because there is no sideways direction straight up or down.
     fn level(self) -> Self {
         let most = FRAC_PI_2 - 0.01;
         Self { pitch: self.pitch.clamp(-most, most), ..self }
     }
 }
 
-/// The same camera in a trembling hand.
+/// Returns the same camera in a trembling hand.
 pub fn shaken(camera: Camera, time: f32) -> Camera {
     let distance = DVec3::from(camera.eye).distance(camera.target.into()).max(1.0);
     // Frequencies without a common period, so that no frame repeats.
@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn dragging_to_the_right_moves_what_is_seen_to_the_right() {
-        // In the picture's axes: where the old target lies after a drag to the right and down.
+        // The place of the old target after a drag to the right and down, in the picture's axes.
         for drag in [Orbit::look, Orbit::pan] {
             let (before, mut after) = (orbit(), orbit());
             drag(&mut after, [0.1, 0.1]);

@@ -1,4 +1,4 @@
-//! The panels: they show what is chosen, change it, and ask for what is done once.
+//! The panels: they show and change the state, and ask for actions.
 
 use crate::action::Action;
 use crate::documentation;
@@ -11,7 +11,7 @@ use asvgf::{FilterSettings, Gradient, Setting, SettingKind, Settings, TracerSett
 use eframe::egui::{Button, ComboBox, ScrollArea, Slider, TextEdit, Ui};
 use std::path::PathBuf;
 
-/// Whether files can be read and written by their names: a page cannot.
+/// True if files can be read and written by their names: a page in a browser cannot.
 const FILES: bool = cfg!(not(target_arch = "wasm32"));
 
 /// File names that are being typed.
@@ -27,23 +27,23 @@ impl Default for Fields {
     }
 }
 
-/// What the panels show beside what is chosen.
+/// Facts that the panels show besides the state.
 pub struct Facts<'a> {
     pub stage: &'a Stage,
-    /// What ran in the last frame of the left half.
+    /// The plan of the last frame of the left half.
     pub plan: Option<&'a Plan>,
-    /// Name of the adapter, and what it is.
+    /// Name and back end of the adapter.
     pub adapter: &'a str,
-    /// The scale where none was chosen.
+    /// The scale to use if the user has chosen none.
     pub scale: f32,
-    /// The image in pixels.
+    /// Size of the image in pixels.
     pub size: [u32; 2],
-    /// What is under the pointer.
+    /// The value under the pointer, in words.
     pub probe: Option<String>,
     pub view: ViewOptions,
 }
 
-/// What comes first: which α, how much of it, and both side by side.
+/// The top panel, for the first questions: which α, how high, and both side by side.
 pub fn top(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
         for source in Source::SHOWN {
@@ -51,7 +51,7 @@ pub fn top(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
         }
         ui.separator();
         ui.add(Slider::new(&mut state.alpha, 0.01..=1.0).logarithmic(true).text("constant α"))
-            .on_hover_text("The weight of each new frame in the moving average. Higher: noisier. Lower: lags.");
+            .on_hover_text("Weight of each new frame in the moving average. Higher: noisier. Lower: more lag.");
         ui.separator();
         ui.checkbox(&mut state.split, "split").on_hover_text("D: two halves with the same noise; drag the divider");
         if state.split {
@@ -73,7 +73,7 @@ pub fn top(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
     });
 }
 
-/// Everything else.
+/// The side panel: everything else.
 pub fn side(ui: &mut Ui, state: &mut State, fields: &mut Fields, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let open = |title| eframe::egui::CollapsingHeader::new(title).default_open(true);
@@ -82,14 +82,14 @@ pub fn side(ui: &mut Ui, state: &mut State, fields: &mut Fields, facts: &Facts<'
             views::choose(ui, &mut state.view);
             ui.add(Slider::new(&mut state.exposure, 0.1..=10.0).logarithmic(true).text("exposure"));
             views::legend(ui, state.view(), facts.view);
-            ui.label(facts.probe.as_deref().unwrap_or("point at the picture for its numbers"));
+            ui.label(facts.probe.as_deref().unwrap_or("point at the picture to read its numbers"));
         });
         open("scene and camera").show(ui, |ui| {
             scene(ui, state, fields, actions);
             camera(ui, state, actions);
             let mut scale = state.scale.unwrap_or(facts.scale);
             let slider = Slider::new(&mut scale, 0.05..=1.0).logarithmic(true).text("resolution");
-            if ui.add(slider).on_hover_text("Pixels of the image per pixel of the window").changed() {
+            if ui.add(slider).on_hover_text("Pixels per window pixel. Higher: sharper. Lower: faster.").changed() {
                 state.scale = Some(scale);
             }
             ui.label(format!("{} × {} pixels", facts.size[0], facts.size[1]));
@@ -102,7 +102,7 @@ pub fn side(ui: &mut Ui, state: &mut State, fields: &mut Fields, facts: &Facts<'
         ui.collapsing("plan", |ui| match facts.plan {
             Some(p) => plan::show(ui, p),
             None => {
-                ui.label("no frame was rendered yet");
+                ui.label("no frame has been rendered yet");
             }
         });
         open("keys").show(ui, shortcuts::list);
@@ -156,10 +156,10 @@ fn scene(ui: &mut Ui, state: &State, fields: &mut Fields, actions: &mut Vec<Acti
         }
     });
     if !FILES {
-        ui.label("drop a glTF or OBJ file here, with those that it refers to");
+        ui.label("drop a glTF or OBJ file here, with the files that it refers to");
         return;
     }
-    let (path, open) = file(ui, &mut fields.scene, "glTF or OBJ file; or drop one here", &["open"]);
+    let (path, open) = file(ui, &mut fields.scene, "glTF or OBJ file, or drop one here", &["open"]);
     if open.is_some() && !path.is_empty() {
         actions.push(Action::Open(path));
     }
@@ -168,7 +168,7 @@ fn scene(ui: &mut Ui, state: &State, fields: &mut Fields, actions: &mut Vec<Acti
 fn camera(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
         ui.checkbox(&mut state.fly, "fly").on_hover_text("F: drag turns the head, arrows walk");
-        if ui.button("cut").on_hover_text("C: a quarter of the way around at once, and a new history").clicked() {
+        if ui.button("cut").on_hover_text("C: jump a quarter of the way around, with a new history").clicked() {
             actions.push(Action::Cut);
         }
         if ui.button("home").on_hover_text("H: the scene's own camera").clicked() {
@@ -184,13 +184,13 @@ fn files(ui: &mut Ui, fields: &mut Fields, actions: &mut Vec<Action>) {
         Some(_) => actions.push(Action::Load(PathBuf::from(path))),
         None => {}
     }
-    let (path, pressed) = file(ui, &mut fields.picture, ".png or, as numbers, .exr", &["screenshot"]);
+    let (path, pressed) = file(ui, &mut fields.picture, ".png, or .exr for numbers", &["screenshot"]);
     if pressed.is_some() {
         actions.push(Action::Picture(PathBuf::from(path)));
     }
 }
 
-/// A line for a file name with buttons; returns the name and which was pressed.
+/// Shows a line for a file name, with buttons. Returns the name and the pressed button.
 fn file(ui: &mut Ui, text: &mut String, hint: &str, buttons: &[&'static str]) -> (String, Option<&'static str>) {
     let mut pressed = None;
     ui.horizontal(|ui| {
@@ -207,14 +207,14 @@ fn file(ui: &mut Ui, text: &mut String, hint: &str, buttons: &[&'static str]) ->
 fn all_settings(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
         ui.label("preset");
-        // The paths stay as they are: presets are of the filter.
+        // A preset changes the filter alone and leaves the path tracer's settings.
         if ui.button("default").clicked() {
             state.settings.filter = Settings::adaptive().filter;
         }
-        if ui.button("classic").on_hover_text("The formulas as published").clicked() {
+        if ui.button("classic").on_hover_text("The published formulas").clicked() {
             state.settings.filter = Settings::classic().filter;
         }
-        if ui.button("everything as at the start").clicked() {
+        if ui.button("restore everything").clicked() {
             actions.push(Action::Restore);
         }
     });
@@ -226,7 +226,7 @@ fn all_settings(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
     }
 }
 
-/// Choices that a host's renderer alone has, and there is none here.
+/// Choices that only a host's renderer can use: the demo has none.
 const OF_HOSTS: [&str; 2] = [Gradient::Pairs.name(), Gradient::Lambda.name()];
 
 fn setting(ui: &mut Ui, settings: &mut Settings, setting: &Setting) {

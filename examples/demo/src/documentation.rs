@@ -1,12 +1,12 @@
-//! The library's own documentation as hover text, so that it is written once.
+//! Hover texts from the library's own documentation, so that they are written once.
 
 use asvgf::{Choice, Compiles, Setting, SettingKind, View};
 
-/// Signs that egui's fonts lack, and what is written instead.
+/// Signs that egui's fonts lack, with their substitutes.
 const ABSENT: [(&str, &str); 8] =
     [("←", ":="), ("∇", "grad "), ("⁻³", "^-3"), ("ᵏ", "^k"), ("ⁿ", "^n"), ("₁", "1"), ("₂", "2"), ("₃", "3")];
 
-/// What a setting is, what a higher and a lower value cost, and what it takes.
+/// Documentation of a setting, with its accepted range.
 pub fn of_setting(setting: &Setting) -> String {
     let mut text = plain(setting.documentation);
     if let SettingKind::Number { accepted, .. } | SettingKind::Whole { accepted, .. } = &setting.kind {
@@ -18,24 +18,24 @@ pub fn of_setting(setting: &Setting) -> String {
     text
 }
 
-/// What is chosen.
+/// Documentation of a choice.
 pub fn of_choice(choice: Choice) -> String {
     plain(choice.documentation)
 }
 
-/// What an image shows.
+/// Documentation of a view.
 pub fn of_view(view: View) -> String {
     plain(view.documentation())
 }
 
-/// Without the marks of rustdoc: links keep their text, code its words, paragraphs are one.
+/// Removes the marks of rustdoc: links keep their text, code its words, and all paragraphs become one.
 fn plain(text: &str) -> String {
     let mut out = String::new();
     let mut rest = text.split_whitespace().collect::<Vec<_>>().join(" ").replace(['`', '\\'], "");
     for (sign, letters) in ABSENT {
         rest = rest.replace(sign, letters);
     }
-    // [name](path) is name, [name] too; [0, 1] does not occur.
+    // [name](path) becomes name, and so does [name]; [0, 1] does not occur.
     while let Some((before, after)) = rest.split_once('[') {
         out.push_str(before);
         let Some((name, after)) = after.split_once(']') else { break };
@@ -71,7 +71,7 @@ mod tests {
         texts
     }
 
-    /// The reasons of many plans, which the window shows as they are.
+    /// The reasons of many plans, which the window shows unchanged.
     fn reasons() -> Vec<&'static str> {
         let target = wgpu::TextureFormat::Rgba16Float;
         let gradients = Gradient::ALL.iter().map(|&gradient| FilterSettings { gradient, ..Default::default() });
@@ -101,7 +101,7 @@ mod tests {
                 assert!(strange.is_empty(), "{strange:?}");
             });
         });
-        // Nobody draws it.
+        // The output is never drawn.
         output.textures_delta.clear();
     }
 

@@ -1,4 +1,4 @@
-//! Files that are dropped into the window: scenes, and what was saved.
+//! Files that are dropped into the window: scenes and saved states.
 
 use crate::action::Action;
 use eframe::egui::Ui;
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// Files that were dropped together, by name.
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
-/// What was dropped and is still to be looked at.
+/// Dropped files that still wait to be opened.
 #[derive(Default)]
 pub struct Dropped {
     #[cfg(target_arch = "wasm32")]
@@ -16,7 +16,7 @@ pub struct Dropped {
 }
 
 impl Dropped {
-    /// What is to be done: a program finds a scene's other files by its path.
+    /// Takes the actions for dropped files. A desktop program finds a scene's other files by its path.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn take(&self, ui: &Ui) -> Vec<Action> {
         let paths: Vec<PathBuf> =
@@ -28,7 +28,7 @@ impl Dropped {
         paths.into_iter().map(action).collect()
     }
 
-    /// What is to be done with what has arrived: a page is handed bytes, and after a while.
+    /// Takes the actions for files that have arrived. A page gets their bytes, and only after a while.
     #[cfg(target_arch = "wasm32")]
     pub fn take(&self, ui: &Ui) -> Vec<Action> {
         let handles = ui.input(|input| input.raw.dropped_files.clone());
@@ -37,7 +37,7 @@ impl Dropped {
             wasm_bindgen_futures::spawn_local(async move {
                 let mut files = Files::new();
                 for handle in handles {
-                    // What cannot be read is missed by the scene that names it.
+                    // The scene that names an unreadable file reports it as missing.
                     if let Ok(bytes) = handle.bytes_async().await {
                         files.insert(handle.path().to_owned(), bytes);
                     }
@@ -52,14 +52,14 @@ impl Dropped {
     }
 }
 
-/// Of files that were dropped together, the one that the others belong to: a scene, or else what was saved.
+/// The main file among files that were dropped together: a scene, or else a saved state.
 pub fn chief(files: &Files) -> Option<&Path> {
     let is_scene = |path: &Path| ["gltf", "glb", "obj"].iter().any(|known| has_extension(path, known));
     let paths = || files.keys().map(PathBuf::as_path);
     paths().find(|path| is_scene(path)).or_else(|| paths().find(|path| is_saved(path)))
 }
 
-/// Whether a file holds what was chosen.
+/// Returns true if a file is a saved state.
 pub fn is_saved(path: &Path) -> bool {
     has_extension(path, "json")
 }

@@ -1,8 +1,8 @@
-//! The denoiser inside eframe: all that a host has to do, from top to bottom.
+//! The denoiser inside eframe: everything that a host has to do, from top to bottom.
 //!
-//! eframe has a device, a queue, and a renderer that draws textures. The scene is traced and filtered on the same device, into
-//! textures that the renderer knows by number: no second device, nothing read back, nothing waited for. A repaint is
-//! [`Embed::begin`], [`Embed::render`], [`Embed::develop`], [`Embed::submit`], and `painter.image(film.id, …)`.
+//! eframe has a device, a queue, and a renderer that draws textures. The demo traces and filters the scene on the same device,
+//! into textures that the renderer knows by number: it makes no second device, reads nothing back and waits for nothing. A
+//! repaint calls [`Embed::begin`], [`Embed::render`], [`Embed::develop`], [`Embed::submit`], and `painter.image(film.id, …)`.
 
 use crate::state::Source;
 use crate::stopwatch::Stopwatch;
@@ -15,31 +15,31 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use wgpu::{CommandEncoder, DeviceType, Features, FilterMode, TextureFormat, TextureUsages, TextureView};
 
-/// A denoiser with what it writes to.
+/// A denoiser with the textures that it writes.
 pub struct Film {
     pub source: Source,
     pub denoiser: Denoiser,
-    /// Linear radiance.
+    /// The denoiser's output in linear radiance.
     pub radiance: TextureView,
-    /// What the window shows, encoded as sRGB.
+    /// The picture in the window, encoded as sRGB.
     pub picture: TextureView,
-    /// What egui calls that.
+    /// egui's name for `picture`.
     pub id: TextureId,
 }
 
-/// A scene on the GPU, and the films that are made of it.
+/// A scene on the GPU, with the films that show it.
 pub struct Embed {
     pub gpu: RenderState,
     pub scene: GpuScene,
     pub films: Vec<Film>,
-    /// Numbers of an intermediate image, for whoever wants to read them.
+    /// Numbers of an intermediate image, for the probe and the means.
     pub numbers: TextureView,
     pub size: [u32; 2],
-    /// Number of the next frame: with the pixel it decides all random numbers, so all films have the same noise.
+    /// Number of the next frame. It decides all random numbers, together with the pixel, so all films have the same noise.
     pub index: u32,
-    /// Frames of the references so far: those of different frames, and of a frame that stands still, all differ.
+    /// Number of the references' next frame. It differs from frame to frame, and also while a frame stands still.
     pub converged: u32,
-    /// The GPU works on what was submitted last.
+    /// True while the GPU works on the last submission.
     working: Arc<AtomicBool>,
 }
 
@@ -59,14 +59,14 @@ impl Embed {
         })
     }
 
-    /// Puts another scene in the place of this one, which stays where the other cannot be used.
+    /// Replaces the scene. If the other scene cannot be used, this one stays.
     pub fn set_scene(&mut self, scene: &Scene) -> Result<(), Box<dyn Error>> {
         self.scene = GpuScene::new(&self.gpu.device, &self.gpu.queue, scene)?;
         Ok(())
     }
 
-    /// Sees to it that there is one film of this size for each source, with these settings. A film that is no longer wanted
-    /// becomes another, and its history with it: so α turns constant without a break.
+    /// Provides one film of this size for each source, with these settings. A film that is no longer wanted becomes a film of
+    /// another source and keeps its history, so that α turns constant without a break.
     pub fn arrange(&mut self, size: [u32; 2], wanted: &[(Source, Settings)]) -> Result<(), Box<dyn Error>> {
         if size != self.size {
             self.numbers = target(&self.gpu, size, TextureFormat::Rgba32Float);
@@ -109,17 +109,17 @@ impl Embed {
         self.films.iter_mut().for_each(|film| film.denoiser.reset());
     }
 
-    /// Whether the GPU still works on the last frame. Recording another then would only make the picture older when it comes.
+    /// Returns true while the GPU works on the last frame. Recording another frame meanwhile would only delay the picture.
     pub fn is_working(&self) -> bool {
         self.working.load(Ordering::Acquire)
     }
 
-    /// An encoder to record into.
+    /// Makes an encoder to record into.
     pub fn begin(&self) -> CommandEncoder {
         self.gpu.device.create_command_encoder(&Default::default())
     }
 
-    /// Records a frame of every film. A stopwatch takes the times of the passes of its source.
+    /// Records a frame of every film. A stopwatch measures the passes of its source.
     pub fn render(
         &mut self,
         encoder: &mut CommandEncoder,
@@ -142,7 +142,7 @@ impl Embed {
         Ok(())
     }
 
-    /// Records more paths of the references, while the frame stands still.
+    /// Records more paths of the references while the frame stands still.
     pub fn converge(&mut self, encoder: &mut CommandEncoder, camera: Camera) -> Result<(), Box<dyn Error>> {
         for film in self.films.iter_mut().filter(|film| film.converges()) {
             let frame = Frame::new(&self.scene, camera, self.converged, &film.radiance);
@@ -152,8 +152,8 @@ impl Embed {
         Ok(())
     }
 
-    /// Records what the window shows of each film: a view of its last frame, or, where it has none of that kind, its picture.
-    /// Returns why, if so.
+    /// Records the picture of each film: a view of its last frame or, if the film has no such view, the denoised picture. Returns
+    /// the reason in that case.
     pub fn develop(
         &mut self,
         encoder: &mut CommandEncoder,
@@ -176,7 +176,7 @@ impl Embed {
         Ok(missing)
     }
 
-    /// Records the numbers of a view of a source's last frame into [`Embed::numbers`]; `false` where there is no such view.
+    /// Records the numbers of a view of a source's last frame into [`Embed::numbers`]. Returns false if there is no such view.
     pub fn show_numbers(
         &mut self,
         encoder: &mut CommandEncoder,
@@ -191,7 +191,7 @@ impl Embed {
         }
     }
 
-    /// Hands everything to the GPU.
+    /// Submits everything to the GPU.
     pub fn submit(&mut self, encoder: CommandEncoder) {
         self.working.store(true, Ordering::Release);
         self.gpu.queue.submit([encoder.finish()]);
@@ -202,7 +202,7 @@ impl Embed {
 
 impl Film {
     fn new(gpu: &RenderState, size: [u32; 2], source: Source) -> Result<Self, asvgf::Error> {
-        // Software adapters stamp times that do not cover the work.
+        // Timestamps of software adapters do not cover the work.
         let honest = gpu.device.adapter_info().device_type != DeviceType::Cpu;
         let timing = honest && gpu.device.features().contains(Features::TIMESTAMP_QUERY);
         let descriptor = DenoiserDescriptor { size, timing, views: true, ..Default::default() };
@@ -230,7 +230,7 @@ impl Film {
     }
 }
 
-/// A texture that the denoiser writes, egui or a shader samples, and a screenshot copies.
+/// Makes a texture that the denoiser writes, egui or a shader samples, and a screenshot copies.
 fn target(gpu: &RenderState, [width, height]: [u32; 2], format: TextureFormat) -> TextureView {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("demo target"),

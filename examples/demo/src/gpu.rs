@@ -1,18 +1,18 @@
-//! The device that eframe is to make.
+//! The device that eframe makes for the demo.
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use std::sync::Arc;
 use wgpu::{Backends, DeviceDescriptor, Features, Limits};
 
-/// No more than every WebGPU device has, and where there is more: timestamps, and room for large scenes.
+/// Asks for no more than every WebGPU device has and, if the adapter offers them, for timestamps and room for large scenes.
 pub fn configuration() -> WgpuConfiguration {
     WgpuConfiguration { wgpu_setup: setup(), ..Default::default() }
 }
 
-/// How eframe is to choose the adapter and make the device.
+/// Instructs eframe how to choose the adapter and make the device.
 pub fn setup() -> WgpuSetup {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
-    // OpenGL lacks storage textures of some of the formats; WGPU_BACKEND may still ask for it.
+    // OpenGL lacks some of the storage texture formats; WGPU_BACKEND may still select it.
     setup.instance_descriptor.backends = Backends::from_env().unwrap_or(Backends::PRIMARY);
     setup.device_descriptor = Arc::new(|adapter| DeviceDescriptor {
         label: Some("demo"),

@@ -1,7 +1,7 @@
-//! The denoiser in a window, to see the difference that an adaptive α makes.
+//! The denoiser in a window: shows the difference that an adaptive α makes.
 //!
-//! [`embed`] is what a host of one's own has to do; the rest is this program's window. Data flows one way: `controls` and
-//! `shortcuts` change the [`state`] and ask for `action`s, `picture` makes a frame of it, and `embed` renders that.
+//! [`embed`] is the part that a host needs too; the rest is this program's window. Data flows one way: `controls` and
+//! `shortcuts` change the [`state`] and ask for `action`s, `picture` makes a frame from the state, and `embed` renders it.
 
 pub mod action;
 pub mod app;

@@ -1,4 +1,4 @@
-//! Means over an image, summed on the GPU and fetched when they are ready, see means.wgsl.
+//! Means over an image, summed on the GPU and fetched without waiting, see means.wgsl.
 
 use crate::readback::Readback;
 use wgpu::{
@@ -6,7 +6,7 @@ use wgpu::{
     ComputePipeline, ComputePipelineDescriptor, Device, TextureView,
 };
 
-/// What was measured.
+/// A quantity that is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     AdaptiveError,
@@ -15,7 +15,7 @@ pub enum Quantity {
     HistoryLength,
 }
 
-/// A mean of one frame.
+/// The mean of a quantity over one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mean {
     pub quantity: Quantity,
@@ -23,7 +23,7 @@ pub struct Mean {
     pub value: f64,
 }
 
-/// Measures, and keeps what has arrived until it is taken.
+/// Measures means, and keeps those that have arrived until they are taken.
 pub struct Means {
     mean: ComputePipeline,
     squared_error: ComputePipeline,
@@ -46,7 +46,7 @@ impl Means {
         Self { mean: pipeline("mean"), squared_error: pipeline("squared_error"), arrived: Readback::default() }
     }
 
-    /// Records the mean of an image's red channel or, with two independent images of the truth, of its squared error.
+    /// Records the mean of an image's red channel or, given two independent images of the truth, of its squared error.
     pub fn record(
         &self,
         device: &Device,
@@ -85,13 +85,13 @@ impl Means {
         });
     }
 
-    /// What has arrived since the last call.
+    /// Takes the means that have arrived since the last call.
     pub fn take(&self) -> Vec<Mean> {
         self.arrived.take()
     }
 }
 
-/// Bytes from the GPU as numbers.
+/// Converts bytes from the GPU to numbers.
 pub fn floats(bytes: &[u8]) -> Vec<f32> {
     bytes.chunks_exact(4).map(|b| f32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect()
 }

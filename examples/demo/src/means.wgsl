@@ -1,4 +1,4 @@
-// Sums each row of an image, as much as the CPU need not see all of it.
+// Sums each row of an image, because the CPU need not see all pixels.
 
 @group(0) @binding(0) var image: texture_2d<f32>;
 @group(0) @binding(1) var first: texture_2d<f32>;
@@ -7,7 +7,7 @@
 
 var<workgroup> parts: array<f32, 64>;
 
-// The sum of what 64 invocations have, in the first.
+// The sum of the parts of 64 invocations, valid in the first.
 fn together(lane: u32, part: f32) -> f32 {
     parts[lane] = part;
     for (var reach = 32u; reach > 0u; reach >>= 1u) {
@@ -19,7 +19,7 @@ fn together(lane: u32, part: f32) -> f32 {
     return parts[0];
 }
 
-// Of a number.
+// Sums the red channel.
 @compute @workgroup_size(64)
 fn mean(@builtin(workgroup_id) row: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     var sum = 0.0;
@@ -32,8 +32,8 @@ fn mean(@builtin(workgroup_id) row: vec3<u32>, @builtin(local_invocation_index) 
     }
 }
 
-// Of the squared error. The truth is only known from two noisy images of it: their noise is independent, so the product of
-// both differences is the squared error on average, however noisy they are, where a square would have their variance in it.
+// Sums the squared error. Only two noisy images of the truth are known, and the square of a difference would include their
+// variance. Their noise is independent, so the product of both differences is the squared error on average, however noisy they are.
 @compute @workgroup_size(64)
 fn squared_error(@builtin(workgroup_id) row: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     var sum = 0.0;

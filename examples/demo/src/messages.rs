@@ -1,11 +1,11 @@
-//! What the user is told until it is dismissed.
+//! Messages to the user, shown until they are dismissed.
 
 use eframe::egui::{Align2, Color32, Context, Window};
 
-/// Most messages that are kept.
+/// Number of messages that are kept at most.
 const KEPT: usize = 6;
 
-/// Messages, oldest first, and whether each is bad news.
+/// Messages, oldest first; true marks an error.
 #[derive(Default)]
 pub struct Messages(Vec<(bool, String)>);
 
@@ -18,12 +18,12 @@ impl Messages {
         self.add(false, text.into());
     }
 
-    /// One message a line.
+    /// The text of all messages, one a line.
     pub fn text(&self) -> String {
         self.0.iter().map(|(_, text)| text.as_str()).collect::<Vec<_>>().join("\n")
     }
 
-    /// All of them over the picture, which stays as large as it is, and a button that dismisses them.
+    /// Shows all messages over the picture, which keeps its size, with a button that dismisses them.
     pub fn show(&mut self, context: &Context) {
         if self.0.is_empty() {
             return;
@@ -42,7 +42,7 @@ impl Messages {
         }
     }
 
-    /// What goes wrong in every frame is told once.
+    /// Adds a message once, even if the same error occurs in every frame.
     fn add(&mut self, bad: bool, text: String) {
         if self.0.iter().any(|(_, known)| *known == text) {
             return;

@@ -1,4 +1,4 @@
-//! The demo as a program with a window and a command line.
+//! The demo as a desktop program with a window and a command line.
 
 use asvgf_demo::app::Demo;
 use asvgf_demo::options::{self, HELP, Options};
@@ -10,13 +10,13 @@ use std::process::ExitCode;
 
 const NO_DISPLAY: &str = "there is no display to open a window on (neither DISPLAY nor WAYLAND_DISPLAY is set).\n\
     Without one, pictures can be written to files: cargo run --release --example render\n\
-    Or lend it a virtual one: xvfb-run cargo run --release -p asvgf-demo";
+    Or use a virtual one: xvfb-run cargo run --release -p asvgf-demo";
 
 const NO_ADAPTER: &str = "no GPU that wgpu can use was found. Install your GPU's Vulkan driver, or a software one:\n  \
     Debian, Ubuntu: sudo apt-get install -y mesa-vulkan-drivers\n  Fedora: sudo dnf install mesa-vulkan-drivers\n  \
     Arch: sudo pacman -S vulkan-swrast";
 
-/// Runs it to its end.
+/// Runs the demo to its end.
 pub fn main() -> ExitCode {
     let options = match options::parse(std::env::args_os().skip(1)) {
         Ok(Some(options)) => options,
@@ -72,7 +72,7 @@ fn run(options: Options) -> Result<(), String> {
         }),
     );
     match ended {
-        // Whatever of it failed: a machine without a driver has no surface either.
+        // The advice fits every failure of wgpu: a machine without a driver has no surface either.
         Err(eframe::Error::Wgpu(error)) => Err(format!("{error}\n{NO_ADAPTER}")),
         Err(error) => Err(error.to_string()),
         Ok(()) => failed.and_then(|failed| failed.lock().ok()?.take()).map_or(Ok(()), Err),

@@ -4,7 +4,7 @@ use lexopt::prelude::*;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// What `--help` prints.
+/// The text of `--help`.
 pub const HELP: &str = "\
 Shows a path-traced scene in a window, denoised live with a constant and an adaptive α.
 
@@ -12,17 +12,17 @@ Usage: cargo run --release -p asvgf-demo -- [SCENE] [OPTIONS]
 
   SCENE                 a .gltf, .glb or .obj file, or a built-in scene: cornell, pillars
                                                                         [cornell]
-  --state FILE          start with what was saved there
+  --state FILE          start with a saved state
   --size WxH            the window in points                                 [1280x800]
   --screenshot FILE     write the window to a PNG file and end
-  --frames N            … after so many frames                                     [60]
+  --frames N            the number of frames before the screenshot                 [60]
   -h, --help            print this
 
 Exit status: 0 done, 1 failed, 2 wrong usage.
 Without a display, `cargo run --release --example render` writes pictures to files.
 ";
 
-/// What the command line asks for.
+/// The options of the command line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     pub scene: Option<String>,
@@ -32,7 +32,7 @@ pub struct Options {
     pub frames: u32,
 }
 
-/// `None` asks for help. The error says what is wrong.
+/// Parses the command line. `None` stands for a request for help. The error names the wrong argument.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Option<Options>, String> {
     let mut options = Options { scene: None, state: None, size: [1280.0, 800.0], screenshot: None, frames: 60 };
     let mut parser = lexopt::Parser::from_args(arguments);

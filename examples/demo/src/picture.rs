@@ -1,4 +1,4 @@
-//! The picture: when a frame is due, what is recorded for it, and the mouse on it.
+//! The picture: when a frame is due, its recording, and the mouse on it.
 
 use crate::camera::{Orbit, shaken};
 use crate::embed::Embed;
@@ -19,13 +19,13 @@ use std::path::PathBuf;
 use std::time::Duration;
 use wgpu::{CommandEncoder, DeviceType};
 
-/// Seconds of a frame where the display or the GPU is slower: what moves then moves slower, and no differently.
+/// Longest time step in seconds. On a slower display or GPU, things move more slowly but in the same steps.
 const LONGEST: f64 = 1.0 / 30.0;
 
-/// How long to wait before asking again whether the GPU is done.
+/// Delay before the demo asks again if the GPU is done.
 const PATIENCE: Duration = Duration::from_millis(4);
 
-/// What a frame is made from: another one is due when any of it changes.
+/// The inputs of a frame: another frame is due when any of them changes.
 #[derive(Clone, PartialEq)]
 struct Recipe {
     size: [u32; 2],
@@ -34,7 +34,7 @@ struct Recipe {
     camera: Camera,
 }
 
-/// How it is looked at.
+/// The way in which a frame is shown.
 #[derive(Clone, PartialEq)]
 struct Look {
     view: View,
@@ -42,27 +42,27 @@ struct Look {
     pointer: Option<(Source, [u32; 2])>,
 }
 
-/// The picture with all that is measured of it.
+/// The picture, with all measurements of it.
 pub struct Picture {
     pub embed: Embed,
     pub curves: Curves,
-    /// The camera, once it was moved by hand.
+    /// The camera, once the user has moved it by hand.
     pub orbit: Option<Orbit>,
-    /// One frame is wanted although time stands still.
+    /// True if one frame is wanted although time stands still.
     pub step: bool,
-    /// All history is to be forgotten.
+    /// True if all history is to be forgotten.
     pub forget: bool,
-    /// The next frame is to be written there.
+    /// The file that the next frame is to be written to.
     pub wanted_file: Option<PathBuf>,
-    /// Linear radiance of the left half is wanted by who drives the demo from outside.
+    /// True if the page has asked for the linear radiance of the left half.
     pub ask_radiance: bool,
-    /// Where it was drawn, in points.
+    /// The rectangle of the picture in the window, in points.
     pub rect: Rect,
-    /// Seconds of the scene, and of the window when that was.
+    /// Time of the scene in seconds, and the window's time of that moment.
     time: f64,
     clock: Option<f64>,
     last: Option<(Recipe, Look)>,
-    /// Why the view that was chosen is not what is shown.
+    /// The reason for which the chosen view is not shown.
     missing: Option<String>,
     means: Means,
     probe: Probe,
@@ -92,7 +92,7 @@ impl Picture {
         }
     }
 
-    /// The scene is another one.
+    /// Starts over after a change of scene.
     pub fn start_over(&mut self) {
         self.orbit = None;
         self.time = 0.0;
@@ -109,17 +109,17 @@ impl Picture {
         self.probe.last()
     }
 
-    /// The radiance that was asked for, three numbers for each pixel; empty while it has not come.
+    /// Takes the requested radiance, three numbers for each pixel. It is empty until the radiance has arrived.
     pub fn take_radiance(&self) -> Vec<f32> {
         self.radiance.take().pop().unwrap_or_default()
     }
 
-    /// How numbers become colours.
+    /// The mapping from numbers to colours.
     pub fn options(&self, state: &State) -> ViewOptions {
         ViewOptions { exposure: state.exposure, range: state.view().default_range() }
     }
 
-    /// Takes what has come from the GPU; returns what became of files.
+    /// Takes results that have arrived from the GPU. Returns the outcomes of file writes.
     pub fn listen(&mut self) -> Vec<Outcome> {
         self.means.take().into_iter().for_each(|mean| self.curves.add(mean));
         for film in &mut self.embed.films {
@@ -130,7 +130,7 @@ impl Picture {
         self.outcomes.take()
     }
 
-    /// Draws the picture over all the room there is, and renders the next frame if one is due and the GPU is idle.
+    /// Draws the picture over all available room, and renders the next frame if one is due and the GPU is idle.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -164,7 +164,7 @@ impl Picture {
         rendered
     }
 
-    /// The mouse moves the camera.
+    /// Moves the camera by the mouse.
     fn steer(&mut self, ui: &Ui, response: &Response, state: &State, stage: &Stage) {
         let height = response.rect.height().max(1.0);
         let drag = response.drag_delta() / height;
@@ -183,7 +183,7 @@ impl Picture {
         orbit.approach(wheel / 50.0);
     }
 
-    /// Records and submits what is due.
+    /// Records and submits all work that is due.
     fn frame(
         &mut self,
         ui: &Ui,
@@ -243,7 +243,7 @@ impl Picture {
         Ok(())
     }
 
-    /// Lets the scene's time go on by what has passed since the last frame.
+    /// Advances the scene's time by the time since the last frame.
     fn advance(&mut self, now: f64, paused: bool, step: bool) {
         let passed = self.clock.map_or(0.0, |then| now - then);
         self.clock = Some(now);
@@ -264,7 +264,7 @@ impl Picture {
         Recipe { size, films, pose, camera }
     }
 
-    /// A clock for the passes of the left half, where the GPU has none.
+    /// A stopwatch for the passes of the left half, if the GPU has no timestamps.
     fn stopwatch(&self, state: &State) -> Option<Stopwatch> {
         let software = self.embed.gpu.adapter.get_info().device_type == DeviceType::Cpu;
         // A browser cannot wait.
@@ -272,7 +272,7 @@ impl Picture {
         (state.plots && can).then(|| Stopwatch::start(&self.embed.gpu, state.left))
     }
 
-    /// Records what is plotted of this frame.
+    /// Records the measurements for the plots of this frame.
     fn measure(&mut self, encoder: &mut CommandEncoder) -> Result<(), Box<dyn Error>> {
         let frame = self.embed.index.wrapping_sub(1);
         let radiance = |source| self.embed.film(source).map(|film| &film.radiance);
@@ -295,15 +295,15 @@ impl Picture {
     }
 }
 
-/// Pixels of an image that fills a part of the window; `None` where there is no room, as in a window that is minimised.
+/// Size in pixels of an image that fills a part of the window. `None` if there is no room, as in a minimised window.
 fn image_size(points: Vec2, pixels_per_point: f32, scale: f32) -> Option<[u32; 2]> {
     let pixels = points * pixels_per_point * scale;
-    // Any smaller, and there is nothing to see; any larger, and no default device has such textures.
+    // A smaller image shows nothing, and no default device has larger textures.
     let side = |x: f32| (x.round() as u32).clamp(8, 8192);
     (points.x >= 1.0 && points.y >= 1.0 && pixels.is_finite()).then(|| [side(pixels.x), side(pixels.y)])
 }
 
-/// Whose pixel is under the pointer, and which.
+/// The source and the pixel under the pointer.
 fn under(at: Pos2, rect: Rect, [width, height]: [u32; 2], state: &State) -> (Source, [u32; 2]) {
     let part = (at - rect.min) / rect.size();
     let source = if state.split && part.x > state.divider { state.right } else { state.left };

@@ -1,9 +1,9 @@
-//! What ran in the last frame, and why each piece was in or left out.
+//! The plan of the last frame: its passes, and the reason for each feature that was included or left out.
 
 use asvgf::plan::Plan;
 use eframe::egui::{RichText, Ui};
 
-/// Passes in order, then what is in, then what is not.
+/// Shows the passes in order, the included features, and those left out.
 pub fn show(ui: &mut Ui, plan: &Plan) {
     let passes: Vec<&str> = plan.steps.iter().map(|step| step.pass.name()).collect();
     ui.label(format!("passes: {}", passes.join(", ")));

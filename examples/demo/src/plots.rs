@@ -5,16 +5,16 @@ use eframe::egui::{TextStyle, Ui};
 use egui_plot::{Bar, BarChart, Legend, Line, Plot, PlotPoints};
 use std::collections::VecDeque;
 
-/// Frames that are kept.
+/// Number of frames that are kept.
 const KEPT: usize = 240;
 
-/// Frames whose passes are drawn: each is a stack of bars.
+/// Number of frames whose passes are drawn, each as a stack of bars.
 const STACKS: usize = 60;
 
-/// One frame's passes and their milliseconds, in order.
+/// The passes of one frame in order, with their milliseconds.
 pub type PassTimes = Vec<(&'static str, f64)>;
 
-/// What was measured of the last frames.
+/// Measurements of the last frames.
 #[derive(Default)]
 pub struct Curves {
     means: VecDeque<Mean>,
@@ -22,7 +22,7 @@ pub struct Curves {
 }
 
 impl Curves {
-    /// Adds a mean. The mean of a frame that is measured again, against a better reference, takes the place of the old one.
+    /// Adds a mean. It replaces an older mean of the same frame, which had a worse reference.
     pub fn add(&mut self, mean: Mean) {
         self.means.retain(|m| (m.quantity, m.frame) != (mean.quantity, mean.frame));
         self.means.push_back(mean);
@@ -66,13 +66,13 @@ impl Curves {
         passes
     }
 
-    /// The plots side by side.
+    /// Shows the plots side by side.
     pub fn show(&self, ui: &mut Ui) {
         let height = ui.available_height();
         let legend = Legend::default().text_style(TextStyle::Small);
         let plain = |name| Plot::new(name).height(height - 24.0).allow_scroll(false);
         let plot = |name| plain(name).legend(legend.clone());
-        // The measure is right on average, and may be below zero by chance where the error is small.
+        // The measured squared error is right on average, but chance may take it below zero where the error is small.
         let root = |x: f64| x.max(0.0).sqrt();
         ui.columns(4, |columns| {
             columns[0].label("error (RMSE) by frame");

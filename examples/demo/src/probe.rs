@@ -11,7 +11,7 @@ pub struct Sample {
     pub value: [f32; 3],
 }
 
-/// Asks for texels and keeps the last that came.
+/// Asks for texels and keeps the last one that arrived.
 #[derive(Default)]
 pub struct Probe {
     arrived: Readback<Sample>,
@@ -34,7 +34,7 @@ impl Probe {
         });
     }
 
-    /// The last texel that came.
+    /// The last texel that arrived.
     pub fn last(&mut self) -> Option<Sample> {
         self.last = self.arrived.take().pop().or(self.last);
         self.last

@@ -7,7 +7,7 @@ use wgpu::{
     Origin3d, TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture,
 };
 
-/// Where results arrive, oldest first.
+/// Results that have arrived, oldest first.
 pub struct Readback<T>(Arc<Mutex<Vec<T>>>);
 
 impl<T> Default for Readback<T> {
@@ -17,7 +17,7 @@ impl<T> Default for Readback<T> {
 }
 
 impl<T: Send + 'static> Readback<T> {
-    /// Copies a buffer once what was recorded is submitted, and keeps what `read` makes of the bytes.
+    /// Records the copy of a buffer, and keeps the result of `read` on its bytes after the submission.
     pub fn fetch(
         &self,
         device: &Device,
@@ -30,7 +30,7 @@ impl<T: Send + 'static> Readback<T> {
         self.map(encoder, copy, read);
     }
 
-    /// Likewise of a texture: its texels row by row, without padding.
+    /// Does the same for a texture: its texels row by row, without padding.
     pub fn fetch_texture(
         &self,
         device: &Device,
@@ -41,7 +41,7 @@ impl<T: Send + 'static> Readback<T> {
         self.fetch_columns(device, encoder, texture.size(), &[(texture.clone(), 0..texture.width())], read);
     }
 
-    /// Likewise of columns of several textures of one format and size, which become one image.
+    /// Does the same for columns of several textures of one format and size, which become one image.
     pub fn fetch_columns(
         &self,
         device: &Device,
@@ -70,12 +70,12 @@ impl<T: Send + 'static> Readback<T> {
         });
     }
 
-    /// Maps a buffer that something was copied to.
+    /// Maps a buffer that a recorded command copies to.
     pub fn map(&self, encoder: &mut CommandEncoder, copy: Buffer, read: impl FnOnce(&[u8]) -> T + Send + 'static) {
         let arrived = Arc::clone(&self.0);
         let mapped = copy.clone();
         encoder.map_buffer_on_submit(&copy, MapMode::Read, .., move |result| {
-            // A device that was lost is reported by its own callback.
+            // The callback of a lost device reports the loss.
             if result.is_err() {
                 return;
             }
@@ -87,13 +87,13 @@ impl<T: Send + 'static> Readback<T> {
         });
     }
 
-    /// A buffer to copy to.
+    /// Makes a buffer to copy to.
     pub fn readable(device: &Device, size: u64) -> Buffer {
         let usage = BufferUsages::COPY_DST | BufferUsages::MAP_READ;
         device.create_buffer(&BufferDescriptor { label: Some("demo readback"), size, usage, mapped_at_creation: false })
     }
 
-    /// What has arrived since the last call.
+    /// Takes the results that have arrived since the last call.
     pub fn take(&self) -> Vec<T> {
         self.0.lock().map(|mut arrived| std::mem::take(&mut *arrived)).unwrap_or_default()
     }

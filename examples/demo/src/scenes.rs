@@ -1,4 +1,4 @@
-//! The scene on show: where it comes from, and what of it moves.
+//! The scene on show: its source, and its moving parts.
 
 use crate::dropped::Files;
 use crate::state::Motion;
@@ -9,29 +9,29 @@ use asvgf_fallbacks::sky::{is_dark, sky};
 use glam::{DMat4, DVec3, Vec3};
 use std::path::Path;
 
-/// Seconds that a blinking lamp is on, and off.
+/// Seconds for which a blinking lamp is on, and then off.
 const BLINK: f32 = 1.0;
 
-/// What a scene's own camera may be called in a list of animations.
+/// Name of the animation that moves a built-in scene's own camera.
 const CAMERA: &str = "move-camera";
 
-/// A scene with the nodes that can be moved by hand.
+/// A scene, with the nodes that the user can move by hand.
 pub struct Stage {
     pub scene: Scene,
-    /// What was left out of a file, and what was added.
+    /// Notes on the parts of a file that were left out or added.
     pub notes: Vec<String>,
-    /// What the object that can be moved is called.
+    /// Name of the object that the user can move.
     pub object_name: Option<String>,
-    /// All its animations; `scene` has those that play as one.
+    /// All animations of the scene; `scene` itself has the playing ones, merged into one.
     animations: Vec<Animation>,
-    /// Whether each node goes along with the lamps, or with the object.
+    /// For each node, true if it moves with the lamps, or with the object.
     with_lamps: Vec<bool>,
     with_object: Vec<bool>,
     bounds: [DVec3; 2],
 }
 
 impl Stage {
-    /// A built-in scene or a file. The error is what to tell the user.
+    /// Opens a built-in scene or a file. The error is a text for the user.
     pub fn open(name: &str) -> Result<Self, String> {
         match Self::built_in(name) {
             Some(stage) => Ok(stage),
@@ -41,14 +41,14 @@ impl Stage {
 
     fn built_in(name: &str) -> Option<Self> {
         let mut scene = builtin::scene(name, "all")?;
-        // Each animation by itself, so that they can be played in any combination. Lamps blink without one.
+        // The animations are kept separate, so that any combination can play. Blinking lamps need no animation.
         let single = builtin::ANIMATIONS.into_iter().filter(|n| !["static", "blink", "all"].contains(n));
         scene.animations = single.filter_map(|n| builtin::scene(name, n)).flat_map(|s| s.animations).collect();
         let object = scene.nodes.iter().position(|node| ["tall block", "block"].contains(&node.name.as_str()));
         Some(Self::new(scene, object, Vec::new()))
     }
 
-    /// A file in memory, with those that it refers to.
+    /// Opens a file in memory, with the files that it refers to.
     pub fn from_memory(files: &Files, path: &Path) -> Result<Self, String> {
         Self::loaded(scene::load_from_memory(files, path))
     }
@@ -64,7 +64,7 @@ impl Stage {
         for (i, animation) in scene.animations.iter_mut().enumerate().filter(|(_, a)| a.name.is_empty()) {
             animation.name = format!("animation {i}");
         }
-        // The smallest mesh: the rest may be the room.
+        // The smallest mesh is the object, because the others may be the room.
         let size =
             |node: usize| scene.nodes[node].meshes.iter().map(|&m| scene.meshes[m].triangles.len()).sum::<usize>();
         let solid = |&node: &usize| !scene.nodes[node].meshes.is_empty() && !emits(&scene, node);
@@ -93,27 +93,27 @@ impl Stage {
         }
     }
 
-    /// Names of the animations; the lamps blink, and the camera trembles, without one.
+    /// Names of the animations. Blinking lamps and a trembling camera need none.
     pub fn animations(&self) -> impl Iterator<Item = &str> {
         self.animations.iter().map(|a| a.name.as_str())
     }
 
-    /// Whether there is a lamp that can be switched and moved.
+    /// Returns true if there is a lamp that can be switched and moved.
     pub fn has_lamps(&self) -> bool {
         self.with_lamps.contains(&true)
     }
 
-    /// How far things may be moved by hand, in metres.
+    /// Greatest distance of a move by hand, in metres.
     pub fn reach(&self) -> f32 {
         (0.25 * (self.bounds[1] - self.bounds[0]).max_element()) as f32
     }
 
-    /// The middle of everything.
+    /// The centre of the scene.
     pub fn centre(&self) -> [f64; 3] {
         (0.5 * (self.bounds[0] + self.bounds[1])).to_array()
     }
 
-    /// Where everything is at a moment.
+    /// The pose of the scene at a time.
     pub fn pose(&mut self, motion: &Motion, time: f32) -> Pose {
         self.scene.animations = vec![self.together(&motion.playing)];
         let mut pose = self.scene.pose(Some(0), time);
@@ -132,18 +132,18 @@ impl Stage {
         pose
     }
 
-    /// The camera of the scene, or one that frames it.
+    /// The scene's own camera, or one that frames the scene.
     pub fn camera(&self, pose: &Pose, aspect: f32) -> Camera {
         let own = self.scene.camera_node().and_then(|node| self.scene.camera_view(pose, node));
         own.unwrap_or_else(|| framing(self.bounds, aspect, 0.7))
     }
 
-    /// Whether an animation moves the camera.
+    /// Returns true if an animation moves the camera.
     pub fn moves_camera(name: &str) -> bool {
         name == CAMERA
     }
 
-    /// Several animations as one; where two move the same, the first does.
+    /// Merges the playing animations into one. If two move the same target, the first one does.
     fn together(&self, playing: &[String]) -> Animation {
         let mut one = Animation::default();
         for channel in self.animations.iter().filter(|a| playing.contains(&a.name)).flat_map(|a| &a.channels) {
@@ -155,12 +155,12 @@ impl Stage {
     }
 }
 
-/// Whether blinking lamps are out.
+/// Returns true while blinking lamps are out.
 fn is_out(time: f32) -> bool {
     (time / BLINK).rem_euclid(2.0) >= 1.0
 }
 
-/// Whether a node gives light.
+/// Returns true if a node emits light.
 fn emits(scene: &Scene, node: usize) -> bool {
     let node = &scene.nodes[node];
     let bright =
@@ -168,7 +168,7 @@ fn emits(scene: &Scene, node: usize) -> bool {
     node.light.is_some() || node.meshes.iter().any(bright)
 }
 
-/// For each node whether it, or a node that it hangs on, is chosen.
+/// For each node, returns true if it or one of its ancestors is chosen.
 fn followers(scene: &Scene, chosen: impl Fn(usize) -> bool) -> Vec<bool> {
     let mut follows: Vec<bool> = Vec::with_capacity(scene.nodes.len());
     for (i, node) in scene.nodes.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The picture as a file: what the window shows as PNG, linear radiance as EXR. Of a split picture, both halves.
+//! The picture as a file: the shown picture as PNG, linear radiance as EXR. A split picture has both halves in it.
 
 use crate::embed::Film;
 use crate::means::floats;
@@ -7,14 +7,14 @@ use asvgf::image_io;
 use std::path::{Path, PathBuf};
 use wgpu::{CommandEncoder, Device};
 
-/// What became of a file: what to tell the user.
+/// The outcome of writing a file, as a text for the user.
 pub type Outcome = Result<String, String>;
 
-/// The divider in a picture; numbers have none.
+/// Colour of the divider in a PNG. An EXR has no divider.
 const DIVIDER: [u8; 4] = [255; 4];
 
 /// Records the copy of a film and, if the picture is split, of the film to the right of the divider, 0…1. The file is written
-/// when they have arrived.
+/// when the copies have arrived.
 pub fn record(
     outcomes: &Readback<Outcome>,
     device: &Device,
@@ -39,7 +39,7 @@ fn column(divider: f32, width: u32) -> u32 {
     ((divider * width as f32).round() as u32).min(width)
 }
 
-/// Whether a file holds numbers instead of a picture.
+/// Returns true if a file holds numbers instead of a picture.
 pub fn is_exr(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr"))
 }

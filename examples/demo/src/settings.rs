@@ -1,4 +1,4 @@
-//! The denoiser's settings as a saved file holds them.
+//! The denoiser's settings in the format of a saved file.
 
 use asvgf::{Setting, SettingKind, Settings};
 use serde_json::{Map, Value};
@@ -17,7 +17,7 @@ pub fn to_json(settings: &Settings) -> Value {
     )
 }
 
-/// The settings that a file holds, with the defaults of those that it does not name. The error names what is wrong.
+/// Reads settings. Those that the file does not name have their defaults. The error names the wrong entry.
 pub fn from_json(value: &Value) -> Result<Settings, String> {
     let object = value.as_object().ok_or("settings: must be names with values")?;
     let mut settings = Settings::adaptive();
@@ -42,7 +42,7 @@ fn set(setting: &Setting, settings: &mut Settings, value: &Value) -> Option<()> 
     Some(())
 }
 
-/// For serde's `with`.
+/// Functions for serde's `with`.
 pub mod stored {
     use asvgf::Settings;
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};

@@ -1,14 +1,14 @@
-//! Keys, and what they do.
+//! Keys and their effects.
 
 use crate::action::Action;
 use crate::state::State;
 use asvgf::View;
 use eframe::egui::{Key, Ui};
 
-/// Parts of the distance to what is looked at, walked by one press of an arrow.
+/// Step of one press of an arrow key, as a fraction of the distance to the target.
 const STRIDE: f32 = 0.05;
 
-/// What the digits show, from 1 on.
+/// Views of the digit keys, from 1 on.
 pub const VIEWS: [View; 9] = [
     View::Denoised,
     View::Noisy,
@@ -24,7 +24,7 @@ pub const VIEWS: [View; 9] = [
 const DIGITS: [Key; 9] =
     [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
 
-/// What a key does.
+/// The effect of a key.
 enum Effect {
     Choose(fn(&mut State)),
     Do(Action),
@@ -44,7 +44,7 @@ fn shortcuts() -> Vec<Shortcut> {
         choose(Key::A, "adaptive or constant α", State::toggle),
         choose(Key::D, "divide the picture", |s| s.split = !s.split),
         choose(Key::Space, "pause", |s| s.paused = !s.paused),
-        once(Key::S, "one frame, while paused", Action::Step),
+        once(Key::S, "render one frame while paused", Action::Step),
         once(Key::R, "forget all history", Action::Reset),
         choose(Key::L, "lamps on or off", |s| s.motion.lit = !s.motion.lit),
         choose(Key::B, "lamps blink", |s| s.motion.blink = !s.motion.blink),
@@ -53,15 +53,15 @@ fn shortcuts() -> Vec<Shortcut> {
         once(Key::C, "camera cut", Action::Cut),
         once(Key::H, "the scene's own camera", Action::Home),
         once(Key::ArrowUp, "walk forward", Action::Walk([0.0, 0.0, STRIDE])),
-        once(Key::ArrowDown, "backward", Action::Walk([0.0, 0.0, -STRIDE])),
-        once(Key::ArrowLeft, "to the left", Action::Walk([-STRIDE, 0.0, 0.0])),
-        once(Key::ArrowRight, "to the right", Action::Walk([STRIDE, 0.0, 0.0])),
-        once(Key::PageUp, "up", Action::Walk([0.0, STRIDE, 0.0])),
-        once(Key::PageDown, "down", Action::Walk([0.0, -STRIDE, 0.0])),
+        once(Key::ArrowDown, "walk backward", Action::Walk([0.0, 0.0, -STRIDE])),
+        once(Key::ArrowLeft, "walk left", Action::Walk([-STRIDE, 0.0, 0.0])),
+        once(Key::ArrowRight, "walk right", Action::Walk([STRIDE, 0.0, 0.0])),
+        once(Key::PageUp, "walk up", Action::Walk([0.0, STRIDE, 0.0])),
+        once(Key::PageDown, "walk down", Action::Walk([0.0, -STRIDE, 0.0])),
     ]
 }
 
-/// Does what the pressed keys say, unless text is being typed.
+/// Applies the effects of pressed keys, unless the user types text.
 pub fn read(ui: &Ui, state: &mut State, actions: &mut Vec<Action>) {
     if ui.ctx().egui_wants_keyboard_input() {
         return;
@@ -79,7 +79,7 @@ pub fn read(ui: &Ui, state: &mut State, actions: &mut Vec<Action>) {
     });
 }
 
-/// The list in the window.
+/// Shows the list of keys in the window.
 pub fn list(ui: &mut Ui) {
     for shortcut in shortcuts() {
         ui.label(format!("{}: {}", shortcut.key.name(), shortcut.help));
@@ -87,7 +87,7 @@ pub fn list(ui: &mut Ui) {
     for (key, view) in DIGITS.iter().zip(VIEWS) {
         ui.label(format!("{}: {}", key.name(), view.name().replace('-', " ")));
     }
-    ui.label("drag: turn · right button: shift · wheel: nearer or farther");
+    ui.label("drag: turn · right-button drag: shift · wheel: nearer or farther");
 }
 
 #[cfg(test)]

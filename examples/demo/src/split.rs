@@ -4,16 +4,16 @@ use eframe::egui::{
     Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Stroke, TextureId, Ui, pos2, vec2,
 };
 
-/// Points to either side of the divider where it can be taken.
+/// Distance in points, to either side of the divider, within which the mouse can take it.
 const GRIP: f32 = 6.0;
 
-/// A texture and what it shows.
+/// A texture and the name of its content.
 pub struct Half<'a> {
     pub id: TextureId,
     pub name: &'a str,
 }
 
-/// Draws the left half up to the divider and the right one from there on; one picture where there is no other.
+/// Draws the left half up to the divider and the right half from there on. Without a right half, draws one picture.
 pub fn show(ui: &mut Ui, rect: Rect, left: &Half<'_>, right: Option<&Half<'_>>, divider: &mut f32) {
     let painter = ui.painter().with_clip_rect(rect);
     let Some(right) = right else {
@@ -35,7 +35,7 @@ pub fn show(ui: &mut Ui, rect: Rect, left: &Half<'_>, right: Option<&Half<'_>>, 
     name(&painter, rect.right_top() + vec2(-8.0, 8.0), Align2::RIGHT_TOP, right.name);
 }
 
-/// The part of a texture from one side to another, 0…1, where it belongs in the picture.
+/// Draws the part of a texture between two columns, 0…1, at its place in the picture.
 fn part(painter: &Painter, rect: Rect, id: TextureId, [from, to]: [f32; 2]) {
     let x = |t: f32| rect.left() + t * rect.width();
     let place = Rect::from_min_max(pos2(x(from), rect.top()), pos2(x(to), rect.bottom()));

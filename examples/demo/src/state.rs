@@ -1,29 +1,29 @@
-//! What the user has chosen: all that the frame is made from, and all that a saved file holds.
+//! The state: all choices of the user, which a frame is made from and a saved file holds.
 
 use crate::settings;
 use asvgf::{Gradient, Mode, Settings, View};
 use serde::{Deserialize, Serialize};
 
-/// Where the pixels of a half come from.
+/// The source of the pixels of a half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Source {
     /// The denoiser with an adaptive α.
     Adaptive,
-    /// The same with a constant α.
+    /// The denoiser with a constant α.
     Constant,
-    /// The samples as they are traced.
+    /// The traced samples, unfiltered.
     Noisy,
-    /// The mean of all samples since anything moved.
+    /// The mean of all samples since the last change of anything.
     Reference,
-    /// Another such mean, from other random numbers. Only to measure with: see means.rs.
+    /// Another such mean, from other random numbers. It serves only the measurement: see means.rs.
     Witness,
 }
 
 impl Source {
-    /// Those that can be looked at.
+    /// The sources that can be shown.
     pub const SHOWN: [Self; 4] = [Self::Adaptive, Self::Constant, Self::Noisy, Self::Reference];
 
-    /// As the window calls it.
+    /// The name in the window.
     pub fn name(self) -> &'static str {
         match self {
             Self::Adaptive => "adaptive α",
@@ -34,7 +34,7 @@ impl Source {
         }
     }
 
-    /// What its denoiser has to show where `view` is asked for: each has a picture of its own kind.
+    /// The view that the source's denoiser has to show if `view` is asked for: each has a picture of its own kind.
     pub fn view(self, view: View) -> View {
         match (self, view) {
             (Self::Noisy, View::Denoised) => View::Noisy,
@@ -44,25 +44,25 @@ impl Source {
     }
 }
 
-/// What moves, beside the camera.
+/// Everything that moves, besides the camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Motion {
     /// Names of the scene's animations that play.
     pub playing: Vec<String>,
-    /// All lamps are on.
+    /// True if the lamps are on.
     pub lit: bool,
-    /// They go out and come back, a second each.
+    /// True if the lamps go on and off, a second each.
     pub blink: bool,
-    /// Factor on their light.
+    /// Factor on the light of the lamps.
     pub brightness: f32,
-    /// … of each colour channel, 0…1.
+    /// Factor on each colour channel of that light, 0…1.
     pub tint: [f32; 3],
-    /// From where the scene has them, in metres.
+    /// Offset of the lamps from their place in the scene, in metres.
     pub lamp: [f32; 3],
-    /// Likewise of the object that can be moved.
+    /// Offset of the object that the user can move, in metres.
     pub object: [f32; 3],
-    /// The camera trembles.
+    /// True if the camera trembles.
     pub shake: bool,
 }
 
@@ -81,34 +81,34 @@ impl Default for Motion {
     }
 }
 
-/// Everything that the user has chosen.
+/// All choices of the user.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct State {
-    /// What the picture shows, or its left half.
+    /// The source of the picture, or of its left half.
     pub left: Source,
-    /// What the right half shows.
+    /// The source of the right half.
     pub right: Source,
-    /// Both halves are shown.
+    /// True if both halves are shown.
     pub split: bool,
-    /// Where they meet, 0…1.
+    /// Place at which the halves meet, 0…1.
     pub divider: f32,
     /// α of [`Source::Constant`].
     pub alpha: f32,
-    /// What is shown of the frame, by the name of its [`View`].
+    /// Name of the shown [`View`].
     pub view: String,
     /// Factor on radiance.
     pub exposure: f32,
-    /// Pixels of the image per pixel of the window, along each axis; `None` as it suits the adapter.
+    /// Pixels of the image per pixel of the window, along each axis. With `None`, the adapter decides.
     pub scale: Option<f32>,
-    /// Time stands still.
+    /// True while time stands still.
     pub paused: bool,
-    /// Drag turns the head instead of going around.
+    /// True if a drag turns the head instead of going around.
     pub fly: bool,
-    /// The scene: a built-in one's name, or a file.
+    /// The scene: the name of a built-in one, or a file.
     pub scene: String,
     pub motion: Motion,
-    /// Errors and means are measured and plotted.
+    /// True if errors and means are measured and plotted.
     pub plots: bool,
     #[serde(with = "settings::stored")]
     pub settings: Settings,
@@ -121,7 +121,7 @@ impl Default for State {
             right: Source::Constant,
             split: false,
             divider: 0.5,
-            // As in `render`, and in the papers.
+            // The default of the `render` example and of the papers.
             alpha: 0.2,
             view: View::Denoised.name().into(),
             exposure: 1.0,
@@ -137,12 +137,12 @@ impl Default for State {
 }
 
 impl State {
-    /// The view that is shown; the picture, where a saved file names one that there is not.
+    /// The shown view. If a saved file names an unknown view, the denoised picture.
     pub fn view(&self) -> View {
         View::named(&self.view).unwrap_or(View::Denoised)
     }
 
-    /// What goes to the left or right half is adaptive where it was constant, and the other way round.
+    /// Switches the left half between the adaptive and the constant α. A right half that shows the other one switches too.
     pub fn toggle(&mut self) {
         let other = if self.left == Source::Adaptive { Source::Constant } else { Source::Adaptive };
         if self.split && self.right == other {
@@ -151,7 +151,7 @@ impl State {
         self.left = other;
     }
 
-    /// What has to be rendered, the picture's sources first.
+    /// The sources that have to be rendered, those of the picture first.
     pub fn sources(&self) -> Vec<Source> {
         let mut sources = vec![self.left];
         let measured = [Source::Adaptive, Source::Constant, Source::Reference, Source::Witness];
@@ -164,7 +164,7 @@ impl State {
         sources
     }
 
-    /// What the denoiser of a source does.
+    /// The settings for the denoiser of a source.
     pub fn settings(&self, source: Source) -> Settings {
         let mut settings = self.settings.clone();
         match source {
@@ -176,24 +176,24 @@ impl State {
             Source::Noisy => settings.mode = Mode::Noisy,
             Source::Reference | Source::Witness => {
                 settings.mode = Mode::Reference;
-                // Noise that has nothing to do with what is measured against it.
+                // The noise of a reference must be independent of the noise that is measured against it.
                 settings.tracer.seed ^= if source == Source::Reference { 0x5eed_0000 } else { 0x5eed_1111 };
             }
         }
         settings
     }
 
-    /// Back to how it started; the scene and the scale stay.
+    /// Returns to the initial state, but keeps the scene and the scale.
     pub fn restore(&mut self) {
         *self = Self { scene: std::mem::take(&mut self.scene), scale: self.scale, ..Self::default() };
     }
 
-    /// As text to save.
+    /// The text of a saved file.
     pub fn save(&self) -> String {
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
 
-    /// From saved text. The error says where it is wrong.
+    /// Reads the text of a saved file. The error says where the text is wrong.
     pub fn load(text: &str) -> Result<Self, String> {
         let state: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
         let fits = |value: f32, range: std::ops::RangeInclusive<f32>| range.contains(&value);
@@ -215,7 +215,7 @@ mod tests {
     fn what_is_saved_is_loaded() {
         let state = State { split: true, divider: 0.25, settings: Settings::classic(), ..State::default() };
         assert_eq!(State::load(&state.save()).unwrap(), state);
-        // A file may say only what differs.
+        // A file may hold only the values that differ from the defaults.
         let partial = State::load(r#"{"alpha": 0.5, "settings": {"iterations": 2}}"#).unwrap();
         assert_eq!((partial.alpha, partial.settings.filter.iterations), (0.5, 2));
     }

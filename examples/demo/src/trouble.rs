@@ -1,9 +1,9 @@
-//! What the device says has gone wrong, where no call returns it.
+//! Errors that the device reports by callback, because no call returns them.
 
 use std::sync::{Arc, Mutex};
 use wgpu::Device;
 
-/// Messages of a device, and whether it is gone.
+/// Messages of a device, and the fact of its loss.
 #[derive(Clone, Default)]
 pub struct Trouble(Arc<Mutex<Reports>>);
 
@@ -21,18 +21,18 @@ impl Trouble {
         device.on_uncaptured_error(Arc::new(move |error| errors.tell(format!("the GPU failed: {error}"), false)));
         device.set_device_lost_callback(move |reason, message| {
             let text =
-                format!("the GPU was lost ({reason:?}): {message} Start the demo again; what was saved can be loaded.");
+                format!("the GPU was lost ({reason:?}): {message} Start the demo again; saved files can be loaded.");
             loss.tell(text, true);
         });
         trouble
     }
 
-    /// Whether nothing more can be drawn on the device.
+    /// Returns true if the device is lost and can draw nothing more.
     pub fn is_lost(&self) -> bool {
         self.0.lock().is_ok_and(|reports| reports.lost)
     }
 
-    /// What was not told yet.
+    /// Takes the messages that have not been shown yet.
     pub fn take(&self) -> Vec<String> {
         self.0.lock().map(|mut reports| std::mem::take(&mut reports.untold)).unwrap_or_default()
     }

@@ -1,16 +1,16 @@
-//! What the colours of a view mean, and the value under the pointer in words.
+//! The meaning of a view's colours, and the value under the pointer in words.
 
 use crate::documentation;
 use crate::probe::Sample;
 use asvgf::{View, ViewOptions};
 use eframe::egui::{Color32, ComboBox, Rect, Sense, Ui, pos2, vec2};
 
-/// The name as the window shows it.
+/// The name of a view in the window.
 pub fn title(view: View) -> String {
     view.name().replace('-', " ")
 }
 
-/// A list to choose from, each with the library's own words on it.
+/// Shows the list of views, each with the library's own documentation.
 pub fn choose(ui: &mut Ui, chosen: &mut String) {
     ComboBox::from_label("view").selected_text(chosen.replace('-', " ")).height(500.0).show_ui(ui, |ui| {
         for &view in View::ALL {
@@ -19,7 +19,7 @@ pub fn choose(ui: &mut Ui, chosen: &mut String) {
     });
 }
 
-/// What is shown, in words and, where one colour is one number, on a scale.
+/// Explains the shown view in words and, if one colour stands for one number, with a colour scale.
 pub fn legend(ui: &mut Ui, view: View, options: ViewOptions) {
     ui.label(documentation::of_view(view));
     let Some(most) = white_at(view, options) else { return };
@@ -37,7 +37,7 @@ pub fn legend(ui: &mut Ui, view: View, options: ViewOptions) {
     });
 }
 
-/// The number that is shown white, where the picture goes from black over a scale of colours to white.
+/// The number that is shown white, for views that go from black over a scale of colours to white.
 fn white_at(view: View, options: ViewOptions) -> Option<f32> {
     match view {
         View::Gradient | View::Lambda | View::Alpha => Some(1.0),
@@ -46,7 +46,7 @@ fn white_at(view: View, options: ViewOptions) -> Option<f32> {
     }
 }
 
-/// The scale of shaders/view.wgsl.
+/// The colour scale of shaders/view.wgsl.
 pub fn ramp(x: f32) -> Color32 {
     let t = x.clamp(0.0, 1.0);
     let channels = [1.8 * t, 2.2 * t * t * t, 1.6 * t - 2.6 * t * t + 2.0 * t * t * t];
@@ -54,7 +54,7 @@ pub fn ramp(x: f32) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// A texel in words.
+/// Describes a texel in words.
 pub fn describe(view: View, sample: Sample) -> String {
     let [x, y] = sample.pixel;
     let [r, g, b] = sample.value;

@@ -1,4 +1,4 @@
-//! The demo in a browser: what the page calls.
+//! The demo in a browser: the functions that the page calls.
 
 use asvgf_demo::action::Action;
 use asvgf_demo::app::Demo;
@@ -20,7 +20,7 @@ pub struct Page {
 
 #[wasm_bindgen]
 impl Page {
-    /// Starts the demo. The error is what to tell the user.
+    /// Starts the demo. The error is a text for the user.
     pub async fn start(canvas: HtmlCanvasElement) -> Result<Page, JsValue> {
         let runner = WebRunner::new();
         let options = WebOptions { wgpu_options: gpu::configuration(), ..Default::default() };
@@ -35,23 +35,23 @@ impl Page {
         Ok(Self { runner, context })
     }
 
-    /// Chooses what a saved file says.
+    /// Adopts the state of a saved file.
     pub fn choose(&self, saved: &str) -> Result<(), JsValue> {
         let state = State::load(saved)?;
         self.demo(|demo| demo.adopt(state))
     }
 
-    /// What was chosen, as a saved file says it.
+    /// The state, as a saved file holds it.
     pub fn chosen(&self) -> Result<String, JsValue> {
         self.demo(|demo| demo.state.save())
     }
 
-    /// Asks for one frame, while time stands still.
+    /// Asks for one frame while time stands still.
     pub fn step(&self) -> Result<(), JsValue> {
         self.demo(|demo| demo.act(Action::Step))
     }
 
-    /// Frames that were rendered so far.
+    /// Number of frames rendered so far.
     pub fn frames(&self) -> Result<u32, JsValue> {
         self.demo(|demo| demo.frames())
     }
@@ -61,19 +61,19 @@ impl Page {
         self.demo(|demo| demo.picture.ask_radiance = true)
     }
 
-    /// The radiance that was asked for: three numbers for each pixel. Empty while it has not come.
+    /// The requested radiance, three numbers for each pixel. It is empty until the radiance has arrived.
     pub fn radiance(&self) -> Result<Vec<f32>, JsValue> {
         self.demo(|demo| demo.picture.take_radiance())
     }
 
-    /// What the user is told.
+    /// The messages to the user.
     pub fn messages(&self) -> Result<String, JsValue> {
         self.demo(|demo| demo.messages())
     }
 
     fn demo<T>(&self, act: impl FnOnce(&mut Demo) -> T) -> Result<T, JsValue> {
         let mut demo = self.runner.app_mut::<Demo>().ok_or("the demo has stopped")?;
-        // A window that stands still would not notice.
+        // A window that stands still would not notice the change, so request a repaint.
         self.context.get().into_iter().for_each(Context::request_repaint);
         Ok(act(&mut demo))
     }

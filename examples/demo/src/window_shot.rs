@@ -1,4 +1,4 @@
-//! The whole window as a file, after so many frames.
+//! A screenshot of the whole window, after a number of frames.
 
 use crate::app::Demo;
 use asvgf::image_io;
@@ -6,10 +6,10 @@ use eframe::egui::{ColorImage, Context, Ui, ViewportCommand};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-/// Why the file could not be written.
+/// The reason for which the file could not be written.
 pub type Failure = Arc<Mutex<Option<String>>>;
 
-/// What to write, and when.
+/// The file to write, and the number of frames before it.
 pub struct WindowShot {
     path: PathBuf,
     frames: u32,
@@ -21,12 +21,12 @@ impl WindowShot {
         Self { path, frames, failure: Failure::default() }
     }
 
-    /// Where a failure is told.
+    /// The place that receives a failure.
     pub fn failure(&self) -> Failure {
         Arc::clone(&self.failure)
     }
 
-    /// The demo that ends when its window was written.
+    /// Makes a demo that ends when its window was written.
     pub fn of(self, demo: Demo) -> Shooting {
         Shooting { demo, shot: Some(self) }
     }

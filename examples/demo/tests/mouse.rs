@@ -1,5 +1,5 @@
-//! The program itself on a virtual display, moved by a mouse that xdotool holds, and how long its answers take:
-//! `cargo test --release -p asvgf-demo --test mouse -- --nocapture`. Needs Xvfb and xdotool; says so where they are not.
+//! The program on a virtual display, driven by a mouse through xdotool; prints the time that each answer takes:
+//! `cargo test --release -p asvgf-demo --test mouse -- --nocapture`. Needs Xvfb and xdotool; says so if they are missing.
 
 mod desktop;
 
@@ -9,15 +9,15 @@ use std::time::Duration;
 
 /// The window fills the screen.
 const SIZE: [u32; 2] = [1280, 800];
-/// What the panels leave of it, less their margins: columns and rows of the picture in which no pointer is.
+/// Columns and rows of the picture that the panels and their margins leave, and that no pointer covers.
 const LEFT: Range<u32> = 340..760;
 const RIGHT: Range<u32> = 860..1270;
 const ROWS: Range<u32> = 60..780;
 
-/// Normals do not change while the camera stands still, though frame after frame is rendered: what changes is the answer.
+/// Normals do not change while the camera stands still, although frame after frame is rendered: a change is the answer.
 const NORMALS: &str = r#"{"view": "normal", "motion": {"blink": false}}"#;
 
-/// Answers that a median is taken of.
+/// Number of answers for a median.
 const COUNT: usize = 9;
 
 fn tell(what: &str, answers: &[Duration]) {
@@ -32,7 +32,7 @@ fn the_picture_follows_the_mouse() {
     let picture = |frame: &Frame| frame.pixels(LEFT, ROWS);
     desktop.settle(picture);
     desktop.point([1000, 400]);
-    // There and back, so that no end is reached.
+    // The drag goes there and back, so that it never reaches an end.
     let drag = ["mousemove_relative -- 25 9", "mousemove_relative -- -25 -9"];
     for (name, moves) in [("wheel", ["click 4", "click 5"]), ("drag", drag)] {
         let mut answers = Vec::new();
@@ -51,7 +51,7 @@ fn the_picture_follows_the_mouse() {
 
 #[test]
 fn the_divider_follows_the_mouse() {
-    // In two halves of normals the divider is all that is white, but where the pointer is drawn over it.
+    // In two halves of normals, the divider is the only white part, except where the pointer is drawn over it.
     let Some(desktop) = Desktop::open(SIZE, &NORMALS.replacen('{', r#"{"split": true, "#, 1)) else { return };
     let white = |frame: &Frame, columns: Range<u32>| {
         columns.filter(|&x| frame.pixels(x..x + 1, 500..700).iter().all(|pixel| *pixel == [255; 3])).collect::<Vec<_>>()
@@ -63,7 +63,7 @@ fn the_divider_follows_the_mouse() {
     for to in [900, 700, 500, 650, 1100, 810, 600] {
         desktop.point([at[0] + 1, 400]);
         desktop.act("mousedown 1");
-        // What is pressed is looked for where the pointer is when the next frame begins.
+        // The demo looks for a pressed widget at the pointer's place when the next frame begins.
         desktop.settle(all);
         answers.push(desktop.answer(&format!("mousemove {to} 400"), all));
         at = desktop.settle(all);

@@ -1,4 +1,4 @@
-//! The window without a person: keys, mouse and files go in, pictures come out. A software adapter is enough.
+//! The window without a person: keys, mouse events and files go in, pictures come out. A software adapter suffices.
 
 mod driver;
 
@@ -11,14 +11,14 @@ use egui_kittest::kittest::Queryable;
 
 const SIZE: [f32; 2] = [900.0, 640.0];
 
-/// Frames until blinking lamps are out for the first time: a second.
+/// Frames until blinking lamps go out for the first time: a second.
 const LIT: u32 = 30;
 
 fn still() -> Motion {
     Motion { blink: false, ..Motion::default() }
 }
 
-/// Both halves, time standing still after the first frame.
+/// A state with both halves whose time stands still after the first frame.
 fn paused() -> State {
     State { paused: true, split: true, motion: still(), ..State::default() }
 }
@@ -29,7 +29,7 @@ fn a_blink_lags_with_a_constant_and_not_with_an_adaptive_alpha() {
     window.until(LIT);
     let before = [Source::Adaptive, Source::Constant].map(|source| mean(&window.radiance(source)));
     assert!((before[0] / before[1] - 1.0).abs() < 0.1, "both show the lit room: {before:?}");
-    // Every lamp is out, so the truth is black. Whatever is left is history.
+    // Every lamp is out, so the truth is black and any remaining light is history.
     window.frames(1);
     let first = mean(&window.radiance(Source::Constant));
     assert!(mean(&window.radiance(Source::Adaptive)) < 0.02 * before[0], "the adaptive one has forgotten the light");
@@ -42,7 +42,7 @@ fn a_blink_lags_with_a_constant_and_not_with_an_adaptive_alpha() {
 
 #[test]
 fn the_split_shows_each_film_on_its_side() {
-    // Lamps that are about to go out make the halves as different as can be.
+    // The halves differ most when the lamps are about to go out.
     let mut window = Window::open(SIZE, State { split: true, divider: 0.5, ..State::default() });
     window.until(LIT + 3);
     let films = [Source::Adaptive, Source::Constant].map(|source| window.picture(source));
@@ -77,7 +77,7 @@ fn every_key_has_its_effect_in_the_next_frame() {
     assert_eq!(window.demo().frames(), count, "time stands still");
     window.key(Key::S);
     assert_eq!(window.demo().frames(), count + 1, "one step");
-    // Not a frame later, though time stands still: the lamps are out, and black is shown.
+    // The view changes without a new frame: the lamps are out, and the picture is black.
     window.key(Key::L);
     window.key(Key::R);
     assert_eq!(mean(&window.radiance(Source::Adaptive)), 0.0);
@@ -126,10 +126,10 @@ fn every_source_and_view_can_be_looked_at() {
             state.view = view.name().into();
         });
         window.frames(1);
-        // Where there is no such view the picture is shown instead, with a note.
+        // If there is no such view, the window shows the picture instead, with a note.
         let picture = window.picture(Source::Adaptive);
         let varied = picture.texels.iter().any(|t| *t != picture.texels[0]);
-        // Nothing is wrong with these frames.
+        // These frames have no faults, so these two views are black.
         let wrong = matches!(view, View::NonFinite | View::Outliers);
         assert_eq!(varied, !wrong, "{view:?}");
     }
@@ -150,7 +150,7 @@ fn the_reference_converges_while_time_stands_still() {
     let (more, after) = (window.demo().picture.embed.converged, scatter(&window));
     assert!(more > count + 10, "{more} frames");
     let (found, expected) = (before / after, more as f32 / count as f32);
-    // Few bright paths carry much of the variance, so that its estimate from one image is rough.
+    // A few bright paths carry much of the variance, so its estimate from one image is rough.
     assert!(found > 0.5 * expected && found < 2.0 * expected, "{found}, not {expected}");
 }
 
@@ -256,7 +256,7 @@ fn any_size_will_do() {
     let after = window.demo().picture.embed.size;
     assert!(after[0] < before[0] && after[1] < before[1], "{before:?}, {after:?}");
     assert!(mean(&window.radiance(Source::Adaptive)) > 0.01, "a frame of the new size");
-    // As a window that is minimised: no room for the picture at all.
+    // A minimised window has no room for the picture at all.
     window.harness.set_size(vec2(0.0, 0.0));
     window.settle();
     window.harness.set_size(vec2(700.0, 500.0));
@@ -294,7 +294,7 @@ fn pictures_are_written() {
 
 #[test]
 fn a_split_picture_is_written_with_both_halves() {
-    // Lamps that have just gone out make the halves as different as can be.
+    // The halves differ most when the lamps have just gone out.
     let mut window = Window::open(SIZE, State { split: true, divider: 0.3, ..State::default() });
     window.until(LIT + 3);
     window.state(|state| state.paused = true);

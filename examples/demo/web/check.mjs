@@ -1,11 +1,11 @@
-// Checks in a headless Chromium with software WebGPU that every shader compiles there and that the demo renders what it has to.
+// Checks in a headless Chromium with software WebGPU that every shader compiles there and that the demo renders correctly.
 //
 //   sh examples/demo/web/serve build
 //   cargo test --lib every_reachable_permutation_is_written -- --ignored
 //   npm install --prefix target/tools playwright-core
 //   node examples/demo/web/check.mjs
 //
-// CHROMIUM names the browser, /usr/bin/chromium if it is not set. What is not there is named, and not checked.
+// CHROMIUM names the browser; the default is /usr/bin/chromium. Missing parts are named, and not checked.
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { existsSync } from "node:fs";
@@ -43,8 +43,8 @@ const server = createServer(async (request, response) => {
 await new Promise((done) => server.listen(0, "127.0.0.1", done));
 const site = `http://127.0.0.1:${server.address().port}`;
 
-// WebGPU and the compositor both on SwiftShader's Vulkan: with a compositor of another kind, canvases stay blank and devices get
-// lost. It may compile a shader for longer than the watchdog would wait.
+// WebGPU and the compositor both run on SwiftShader's Vulkan: with another compositor, canvases stay blank and devices get lost.
+// The watchdog is off, because SwiftShader may compile a shader for longer than it would wait.
 const args = [
   "--no-sandbox",
   "--enable-unsafe-webgpu",

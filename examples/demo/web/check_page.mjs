@@ -1,4 +1,4 @@
-// Drives the demo and compares what it renders with what it has to be. Radiance is read back by the page.
+// Drives the demo and compares its radiance, which the page reads back, with the expected values.
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 
@@ -9,7 +9,7 @@ function assert(holds, what) {
   console.log(`ok: ${what}`);
 }
 
-// How many colours the right half of the window has, where the picture is.
+// Counts the colours of the right half of the window, where the picture is.
 async function colors(tab) {
   const png = (await tab.screenshot()).toString("base64");
   return tab.evaluate(async (png) => {
@@ -39,14 +39,14 @@ export async function checkPage(tab, site, target) {
 
   const reach = (count) =>
     tab.waitForFunction((count) => window.page.frames() >= count, count, { timeout: 5 * MINUTE, polling: 20 });
-  // Chooses, and waits for so many frames of what was chosen.
+  // Adopts a state, and waits for `count` frames of it.
   const render = async (count, state) => {
     const text = JSON.stringify({ scale: 0.1, ...state });
     await reach(count + (await tab.evaluate((text) => (window.page.choose(text), window.page.frames()), text)));
   };
-  // One frame more, while time stands still.
+  // Renders one more frame while time stands still.
   const step = async () => reach(1 + (await tab.evaluate(() => (window.page.step(), window.page.frames()))));
-  // Linear radiance of the left half.
+  // Returns the linear radiance of the left half.
   const radiance = async () => {
     await tab.evaluate(() => window.page.ask());
     const handle = await tab.waitForFunction(
@@ -67,7 +67,7 @@ export async function checkPage(tab, site, target) {
   assert(new Set(first).size > 100 && first.every(Number.isFinite), "a frame is not blank");
   assert((await colors(tab)) > 100, "nor is the canvas");
 
-  // After the lamps have gone out the truth is black: all that is left is history.
+  // After the lamps have gone out the truth is black: any remaining light is history.
   await render(12, { ...lit, left: "Adaptive" });
   const before = mean(await radiance());
   await render(1, { ...dark, left: "Adaptive", paused: true });
@@ -96,7 +96,7 @@ export async function checkPage(tab, site, target) {
     await render(1, { ...lit, view });
   }
 
-  // Files that are dropped together, as a browser hands them over.
+  // Drops files together, as a browser hands them over.
   const drop = (files) =>
     tab.evaluate((files) => {
       const dataTransfer = new DataTransfer();

@@ -1,16 +1,16 @@
-// Every shader that the library can compose, in the browser's own compiler, with the limits that every browser offers.
+// Compiles every shader that the library can compose in the browser's own compiler, with the limits that every browser offers.
 import { existsSync } from "node:fs";
 import { readdir } from "node:fs/promises";
 import { join } from "node:path";
 
-// So many at a time: enough to keep the compiler busy.
+// Number of shaders that compile at a time: enough to keep the compiler busy.
 const BATCH = 16;
 
-// Of so many shaders one becomes a pipeline: that is machine code for a CPU here, and takes forty times as long as the check
-// of the language, which all pass through.
+// One shader among this many becomes a pipeline, which is machine code for a CPU here and takes forty times as long as the check of
+// the language. All shaders pass that check.
 const PIPELINES = 64;
 
-// Runs in the page. Returns what is wrong with shaders, each with its name and what it is.
+// Runs in the page. Returns the errors of shaders, each with the shader's name.
 async function compile({ names, pipelines }) {
   window.device ??= await (await navigator.gpu.requestAdapter()).requestDevice();
   const problems = await Promise.all(
@@ -37,7 +37,7 @@ export async function checkShaders(tab, site, target) {
     return;
   }
   await tab.goto(`${site}/blank`);
-  // The first of each pass, and some of those of which there are many.
+  // Pipelines are made of the first shader of each pass, and of some more where a pass has many.
   const pipelines = names.filter((name) => Number(/-(\d+)\./.exec(name)[1]) % PIPELINES === 0);
   const problems = [];
   for (let i = 0; i < names.length; i += BATCH) {

@@ -1,4 +1,4 @@
-//! A virtual display with the demo on it, and a mouse.
+//! A virtual display that runs the demo, and a mouse.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -9,13 +9,13 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// No answer takes that long, not even the first, for which shaders are compiled.
+/// Time limit for an answer. It includes the first one, which compiles shaders.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// A picture that has not changed for so long has come to rest.
+/// Time without a change after which a picture has come to rest.
 const REST: Duration = Duration::from_millis(1000);
 
-/// Between two looks at the screen: far less than a frame takes.
+/// Interval between two looks at the screen: far less than a frame takes.
 const LOOK: Duration = Duration::from_millis(2);
 
 pub struct Desktop {
@@ -26,7 +26,7 @@ pub struct Desktop {
 }
 
 impl Desktop {
-    /// Opens the demo as a saved file says; `None`, and says why, where that is not possible.
+    /// Opens the demo with a saved state. If that is impossible, prints the reason and returns `None`.
     pub fn open([width, height]: [u32; 2], saved: &str) -> Option<Self> {
         for program in ["Xvfb", "xdotool"] {
             if Command::new(program).arg("-version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_err() {
@@ -38,7 +38,7 @@ impl Desktop {
         let name = format!("asvgf-desktop-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
         let folder = std::env::temp_dir().join(name);
         fs::create_dir_all(&folder).expect("a folder for the screen");
-        // The server chooses a number that is free and tells it. The screen is a file in that folder.
+        // The server chooses a free number and prints it. The screen is a file in that folder.
         let mut server = Command::new("Xvfb")
             .args(["-displayfd", "1", "-nolisten", "tcp", "-screen", "0", &format!("{width}x{height}x24"), "-fbdir"])
             .arg(&folder)
@@ -62,7 +62,7 @@ impl Desktop {
         Some(desktop)
     }
 
-    /// Does what xdotool is told.
+    /// Runs a command of xdotool.
     pub fn act(&self, words: &str) {
         let done = Command::new("xdotool").args(words.split(' ')).env("DISPLAY", &self.display).status();
         assert!(done.is_ok_and(|status| status.success()), "xdotool {words}");
@@ -73,12 +73,12 @@ impl Desktop {
         self.act(&format!("mousemove {x} {y}"));
     }
 
-    /// What is on the screen.
+    /// The content of the screen.
     pub fn frame(&self) -> Frame {
         Frame(fs::read(self.folder.join("Xvfb_screen0")).expect("a screen"))
     }
 
-    /// Waits until what is looked at has come to rest, and is not of one colour. Returns it.
+    /// Waits until the observed part has come to rest and has more than one colour. Returns it.
     pub fn settle<T: PartialEq + Varied>(&self, look: impl Fn(&Frame) -> T) -> T {
         let start = Instant::now();
         let (mut last, mut since) = (look(&self.frame()), start);
@@ -93,7 +93,7 @@ impl Desktop {
         last
     }
 
-    /// How long it takes from an act to the first change of what is looked at.
+    /// Measures the time from an act to the first change of the observed part.
     pub fn answer<T: PartialEq>(&self, words: &str, look: impl Fn(&Frame) -> T) -> Duration {
         let before = look(&self.frame());
         let start = Instant::now();
@@ -109,7 +109,7 @@ impl Desktop {
 impl Drop for Desktop {
     fn drop(&mut self) {
         for child in self.demo.iter_mut().chain([&mut self.server]) {
-            // It may have ended by itself.
+            // The process may have ended by itself.
             let _ = child.kill();
             let _ = child.wait();
         }
@@ -117,7 +117,7 @@ impl Drop for Desktop {
     }
 }
 
-/// Whether there is anything to see.
+/// Things that can be blank.
 pub trait Varied {
     fn is_varied(&self) -> bool;
 }
@@ -128,24 +128,24 @@ impl Varied for Vec<[u8; 3]> {
     }
 }
 
-/// Columns that were found.
+/// Columns that a search found.
 impl Varied for Vec<u32> {
     fn is_varied(&self) -> bool {
         !self.is_empty()
     }
 }
 
-/// A screen: a file in the format XWD, big-endian, its pixels as the server has them.
+/// A screen as a file in the format XWD, big-endian, with its pixels in the server's format.
 pub struct Frame(Vec<u8>);
 
 impl Frame {
-    /// Pixels of a part, row by row.
+    /// The pixels of a rectangle, row by row.
     pub fn pixels(&self, columns: Range<u32>, rows: Range<u32>) -> Vec<[u8; 3]> {
         let word = |i: usize| {
             let bytes = self.0[4 * i..].first_chunk::<4>().expect("a header");
             u32::from_be_bytes(*bytes) as usize
         };
-        // header_size, bytes_per_line, ncolors (12 bytes each) of the header.
+        // The header's fields header_size, bytes_per_line and ncolors (12 bytes each).
         let (header, line, colors) = (word(0), word(12), word(19));
         let start = header + 12 * colors;
         let pixel = |x: u32, y: u32| {

@@ -1,4 +1,4 @@
-//! Drives the demo as a person would, and looks at what it shows.
+//! Drives the demo as a person would, and looks at its pictures.
 
 use asvgf::wgpu::{self, PollType, TextureView};
 use asvgf::{View, ViewOptions};
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// No frame takes that long; one that hangs shall fail.
+/// Time limit for a frame, so that a hang fails the test.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 pub struct Window {
@@ -27,10 +27,10 @@ pub struct Window {
 impl Window {
     /// Opens the window and waits for its first frame.
     pub fn open([width, height]: [f32; 2], state: State) -> Self {
-        // Textures as in a window: the predictable filter is not the sampler's.
+        // A window draws textures with the sampler's filter; the predictable filter is another.
         let options = RendererOptions { predictable_texture_filtering: false, ..RendererOptions::PREDICTABLE };
         let gpu = create_render_state(gpu::setup(), options);
-        // Small, so that a software adapter keeps the test short.
+        // The image is small, so that the test stays short on a software adapter.
         let demo = Demo::new(&gpu, State { scale: Some(0.125), ..state }).expect("the demo starts");
         let harness = Harness::builder()
             .with_size(vec2(width, height))
@@ -53,24 +53,24 @@ impl Window {
         change(&mut self.demo_mut().state);
     }
 
-    /// Repaints once with the GPU idle, and waits for what that has submitted.
+    /// Repaints once with the GPU idle, and waits for the work that this submits.
     pub fn settle(&mut self) {
         self.wait();
         self.harness.step();
         self.wait();
-        // What has arrived is told in the next repaint.
+        // The next repaint shows the results that have arrived.
         self.harness.step();
         self.wait();
     }
 
-    /// Repaints until so many more frames were rendered.
+    /// Repaints until `count` more frames were rendered.
     pub fn frames(&mut self, count: u32) {
         self.until(self.demo().frames() + count);
     }
 
-    /// Repaints until so many frames were rendered in all.
+    /// Repaints until `last` frames were rendered in all.
     pub fn until(&mut self, last: u32) {
-        // Some repaints render nothing: those that come while the GPU works.
+        // Some repaints render nothing, because the GPU is still working.
         for _ in 0..4 * last + 4 {
             self.wait();
             if self.demo().frames() >= last {
@@ -94,7 +94,7 @@ impl Window {
         self.settle();
     }
 
-    /// Drags from one place of the picture to another, 0…1.
+    /// Drags from one place of the picture to another, both in 0…1.
     pub fn drag(&mut self, from: [f32; 2], to: [f32; 2]) {
         let (from, to) = (self.place(from), self.place(to));
         let middle = from + 0.5 * (to - from);
@@ -117,7 +117,7 @@ impl Window {
         let (unit, delta, phase) = (MouseWheelUnit::Point, vec2(0.0, points), TouchPhase::Move);
         let (source, modifiers) = (MouseWheelSource::Unknown, Modifiers::NONE);
         self.harness.event(Event::MouseWheel { unit, delta, phase, source, modifiers });
-        // It is smoothed over some repaints.
+        // egui smooths the wheel over some repaints.
         (0..4).for_each(|_| self.settle());
     }
 
@@ -127,18 +127,18 @@ impl Window {
         self.settle();
     }
 
-    /// Where the camera of the last frame is.
+    /// The position of the last frame's camera.
     pub fn eye(&self) -> [f64; 3] {
         self.demo().picture.camera().expect("a frame").eye
     }
 
-    /// What a film shows.
+    /// The picture of a film.
     pub fn picture(&self, source: Source) -> Image {
         let film = self.demo().picture.embed.film(source).expect("a film");
         Image::read(&self.gpu, &film.picture)
     }
 
-    /// What a film should show, asked for anew.
+    /// The picture that a film should show, rendered anew.
     pub fn expected(&mut self, source: Source, view: View) -> Image {
         let gpu = self.gpu.clone();
         let film = self.demo_mut().picture.embed.films.iter_mut().find(|film| film.source == source).expect("a film");
@@ -161,7 +161,7 @@ impl Window {
         Image::read(&gpu, &target)
     }
 
-    /// Linear radiance of a film.
+    /// The linear radiance of a film.
     pub fn radiance(&self, source: Source) -> Vec<[f32; 3]> {
         let film = self.demo().picture.embed.film(source).expect("a film");
         let bytes = bytes(&self.gpu, &film.radiance, 16);
@@ -169,7 +169,7 @@ impl Window {
         bytes.chunks_exact(16).map(|t| [number(&t[..4]), number(&t[4..8]), number(&t[8..12])]).collect()
     }
 
-    /// What the window draws at places of the picture, 0…1.
+    /// The colours that the window draws at places of the picture, 0…1.
     pub fn shown(&mut self, places: &[[f32; 2]]) -> Vec<[u8; 4]> {
         self.wait();
         let window = self.harness.render().expect("a picture of the window");
@@ -179,7 +179,7 @@ impl Window {
         places.iter().map(|&place| pixel(self.place(place))).collect()
     }
 
-    /// Where the picture is: what the panels leave.
+    /// The rectangle of the picture: the room that the panels leave.
     fn room(&self) -> Rect {
         self.demo().picture.rect
     }
@@ -202,7 +202,7 @@ impl Image {
         Self { size, texels: bytes(gpu, view, 4).as_chunks::<4>().0.to_vec() }
     }
 
-    /// The texel at a place, 0…1, and where its centre is.
+    /// The texel at a place, 0…1, and the place of its centre.
     pub fn texel(&self, place: [f32; 2]) -> ([u8; 4], [f32; 2]) {
         let side = |axis: usize| self.size[axis] as f32;
         let [x, y] = [0, 1].map(|axis| (place[axis] * side(axis)) as usize);
@@ -211,7 +211,7 @@ impl Image {
     }
 }
 
-/// Whether two texels are the same but for the rounding of whoever drew one of them.
+/// Returns true if two texels are equal up to the rounding of either renderer.
 pub fn alike(a: [u8; 4], b: [u8; 4]) -> bool {
     a.iter().zip(b).all(|(&a, b)| a.abs_diff(b) <= 3)
 }
@@ -283,7 +283,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // The files of a test that failed are not worth an error.
+        // Leftover files of a failed test are not worth an error.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }
