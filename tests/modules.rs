@@ -1,6 +1,6 @@
-//! Modules depend on each other in one direction: no file of src/, and no room of it, imports itself on a detour.
+//! Modules depend on each other in one direction: no file of src/, and no folder of it, imports itself through others.
 //!
-//! The test reads the paths in the source as syn parses them. Test modules may look wherever they like.
+//! The test reads the paths in the source as syn parses them. Test modules are free to import anything.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -183,11 +183,11 @@ fn target(
         }
         _ => return None,
     };
-    // The longest beginning that is a module; the rest are names in it.
+    // The module is the longest prefix that names one; the rest are names in it.
     (1..=full.len()).rev().map(|length| full[..length].to_vec()).find(|module| files.contains_key(module))
 }
 
-/// The same graph of folders, down to a depth.
+/// The same graph for folders, down to a depth.
 fn rooms(graph: &Graph, depth: usize) -> Graph {
     let room = |module: &Module| module[..module.len().min(depth)].to_vec();
     let mut rooms = Graph::new();
@@ -198,7 +198,7 @@ fn rooms(graph: &Graph, depth: usize) -> Graph {
     rooms
 }
 
-/// The modules that can be reached from one.
+/// The modules that can be reached from a module.
 fn reached(graph: &Graph, from: &Module) -> BTreeSet<Module> {
     let mut reached = BTreeSet::new();
     let mut open = vec![from.clone()];
@@ -212,7 +212,7 @@ fn reached(graph: &Graph, from: &Module) -> BTreeSet<Module> {
     reached
 }
 
-/// The modules that lie on a circle.
+/// The modules that lie on a cycle.
 fn circles(graph: &Graph) -> BTreeSet<String> {
     graph.keys().filter(|module| reached(graph, module).contains(*module)).map(|module| module.join("::")).collect()
 }
@@ -221,7 +221,7 @@ fn circles(graph: &Graph) -> BTreeSet<String> {
 fn modules_import_each_other_in_one_direction() {
     let graph = graph();
     assert!(graph.len() > 100, "the source was found: {} files", graph.len());
-    // A wrong reading of the source would find no import, and so no circle.
+    // A wrong reading of the source would find no import, and so no cycle.
     let expected = vec!["plan".to_owned()];
     assert!(graph[&vec!["denoiser".to_owned(), "hosted".to_owned()]].contains(&expected), "the imports were found");
     let found = circles(&graph);

@@ -1,4 +1,4 @@
-//! Links of the Markdown pages lead to files that are there, and those of pages in the package to files in the package.
+//! Links of the Markdown pages lead to existing files, and those of pages in the package to files in the package.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};

@@ -1,5 +1,5 @@
-//! Importers on scene files from elsewhere, where they are at hand: `../shared/scenes` next to the repository, with
-//! triangle counts, areas and bounds that other programs have measured. Small files for each element are in `importers`.
+//! Importers on scene files from elsewhere: `../shared/scenes` next to the repository, if it is at hand, with triangle counts, areas
+//! and bounds that other programs have measured. Small files for each element are in `importers`.
 #![cfg(all(feature = "gltf", feature = "obj"))]
 
 #[path = "common/shared.rs"]
@@ -178,7 +178,7 @@ fn textures_are_decoded_and_placed() {
     let transform = textures[2].transform.as_flattened();
     assert!(transform.iter().zip(expected.as_flattened()).all(|(a, b)| (a - b).abs() < 1e-6), "{transform:?}");
     assert!(scene.materials.iter().all(|material| material.alpha == Alpha::Mask(0.5) && material.double_sided));
-    // Integers in 16 and 8 bits to 0…1, floats as they are.
+    // Integers of 16 and 8 bits map to 0…1; floats stay as they are.
     for (mesh, size) in scene.meshes.iter().zip([1.0, 1.0, 2.0]) {
         assert_eq!(mesh.uvs[0], [[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]]);
         assert_eq!(mesh.uvs[1], [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
@@ -225,10 +225,10 @@ fn materials_lights_and_names() {
     assert_eq!((instances.meshes.len(), instances.nodes.len()), (1, 1000));
 }
 
-/// Small files with bytes cut off or changed: whatever they are, there is a result, and soon.
+/// Small files with bytes cut off or changed give a result soon, whatever it is.
 #[test]
 fn damaged_files_never_panic() {
-    // The repository's own file at least.
+    // The repository's own file is always damaged.
     let mut files = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(ROOM)];
     let names = [
         "edge_cases/textures_uv_formats.gltf",
@@ -265,7 +265,7 @@ fn damaged_files_never_panic() {
                 0 => bytes.truncate(random(whole.len())),
                 1 => bytes[random(whole.len())] ^= 1 << random(8),
                 2 => (0..8).for_each(|_| bytes[random(whole.len())] = random(256) as u8),
-                // Digits to other digits: valid text with other numbers.
+                // Digits become other digits: valid text with other numbers.
                 _ => {
                     let digits: Vec<_> = (0..bytes.len()).filter(|&at| bytes[at].is_ascii_digit()).collect();
                     (0..3)

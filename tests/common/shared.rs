@@ -1,16 +1,16 @@
-//! Files of other programs, which the repository does not hold: in the folder `shared` next to it, where that is at hand.
+//! Files of other programs, in the folder `shared` next to the repository if it is at hand. The repository does not hold them.
 
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, Once};
 
-/// How many tests were skipped, in whole or in part, for want of each folder.
+/// Number of tests that were skipped, in whole or in part, because a folder is missing; for each folder.
 static SKIPPED: Mutex<BTreeMap<String, u32>> = Mutex::new(BTreeMap::new());
 
 /// A folder of `shared`. If it is not there, the last line of the output counts this test as skipped.
 pub fn shared(name: &str) -> Option<PathBuf> {
-    // The package is the repository, or a folder of it.
+    // The package is the repository itself, or a folder of it.
     let around = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().skip(1).take(2);
     let found = around.map(|parent| parent.join("shared").join(name)).find(|folder| folder.is_dir());
     if found.is_none() {

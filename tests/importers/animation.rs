@@ -65,7 +65,7 @@ fn rotations_take_the_short_way_at_constant_speed() {
 
 #[test]
 fn cubic_splines_follow_their_tangents() {
-    // x = t³ on 0…2: slopes 0 and 12.
+    // The curve is x = t³ on 0…2, with slopes 0 and 12.
     let values = [[9.0; 4], [0.0; 4], [0.0; 4], [12.0, 0.0, 0.0, 0.0], [8.0, 0.0, 0.0, 0.0], [9.0; 4]];
     let scene = playing(Target::Translation(0), Interpolation::CubicSpline, &[0.0, 2.0], &values);
     for time in [0.0, 0.25, 1.0, 1.75_f32] {

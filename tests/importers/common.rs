@@ -15,7 +15,7 @@ pub const I16: u32 = 5122;
 pub const U8: u32 = 5121;
 pub const I8: u32 = 5120;
 
-/// A folder of its own for a test, which is removed at its end.
+/// A folder for one test, removed at its end.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
@@ -27,7 +27,7 @@ impl Folder {
         Self(path)
     }
 
-    /// Writes a file, and the folders that it is in.
+    /// Writes a file, and makes its folders.
     pub fn write(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -67,7 +67,7 @@ impl Gltf {
         gltf
     }
 
-    /// The same with texture coordinates.
+    /// The same triangle with texture coordinates.
     pub fn textured_triangle() -> Self {
         let mut gltf = Self::triangle();
         let uv = gltf.floats("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
@@ -76,7 +76,7 @@ impl Gltf {
         gltf
     }
 
-    /// Adds an element to a list, which is made where it does not exist, and returns its index.
+    /// Adds an element to a list and returns its index. Makes the list if there is none.
     pub fn push(&mut self, list: &str, element: Value) -> usize {
         if self.json[list].is_null() {
             self.json[list] = json!([]);
@@ -116,7 +116,7 @@ impl Gltf {
         self.accessor(U16, "SCALAR", indices.len(), &le(indices.iter().map(|x| x.to_le_bytes())))
     }
 
-    /// The text of the file, its buffer in a data URI.
+    /// The text of the file, with its buffer in a data URI.
     pub fn text(&self) -> String {
         let mut json = self.json.clone();
         if json["buffers"].is_null() && !self.bytes.is_empty() {
@@ -137,7 +137,7 @@ impl Gltf {
         json.to_string()
     }
 
-    /// The same as a GLB file.
+    /// The file as a GLB file.
     pub fn glb(&self) -> Vec<u8> {
         let mut json = self.text_of_glb().into_bytes();
         json.resize(json.len().next_multiple_of(4), b' ');
@@ -195,7 +195,7 @@ pub fn png(width: u32, height: u32, texel: [u8; 4]) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// Asserts that exactly these warnings were given: parts of each, element and reason, in any order.
+/// Asserts that loading gave exactly these warnings: parts of each element and reason, in any order.
 #[track_caller]
 pub fn assert_warnings(loaded: &Loaded, expected: &[(&str, &str)]) {
     let warnings = &loaded.warnings;

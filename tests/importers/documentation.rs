@@ -1,4 +1,4 @@
-//! docs/scenes.md names a test for each row, and each of them exists.
+//! docs/scenes.md names a test for each row, and each of these tests exists.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -30,7 +30,7 @@ fn every_row_of_the_page_about_scenes_has_a_test() {
     }
     let page = fs::read_to_string(root.join("docs/scenes.md")).unwrap();
     let mut rows = 0;
-    // Tables whose last column has tests.
+    // True inside a table whose last column names tests.
     let mut tested = false;
     for line in page.lines() {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();

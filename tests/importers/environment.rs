@@ -58,7 +58,7 @@ fn luminance_and_chroma_are_colours() {
     assert_close(&Environment::load(&path).unwrap().0.radiance[0], &color, 1e-3);
 }
 
-/// Rows 2 and 3 of a picture of four rows, in these primaries.
+/// Writes rows 2 and 3 of a picture of four rows, in these primaries.
 fn write_exr_with(path: &std::path::Path, color: [f32; 3], chromaticities: Option<Chromaticities>) {
     use exr::prelude::*;
     let attributes = LayerAttributes { layer_position: Vec2(0, 2), ..LayerAttributes::default() };
@@ -85,7 +85,7 @@ fn chromaticities_are_converted() {
     use exr::prelude::Vec2;
     let folder = Folder::new();
     let path = folder.0.join("p3.exr");
-    // Display P3, whose white is that of Rec. 709: its red is beyond that of Rec. 709 (SMPTE EG 432-1).
+    // Display P3 has the white of Rec. 709; its red is beyond that of Rec. 709 (SMPTE EG 432-1).
     let p3 = Chromaticities {
         red: Vec2(0.68, 0.32),
         green: Vec2(0.265, 0.69),
@@ -95,7 +95,7 @@ fn chromaticities_are_converted() {
     write_exr_with(&path, [0.5, 0.5, 0.5], Some(p3));
     assert_close(&Environment::load(&path).unwrap().0.radiance[4], &[0.5; 3], 1e-5);
     write_exr_with(&path, [0.0, 0.5, 0.0], Some(p3));
-    // P3 green in Rec. 709 is (−0.2249, 1.0421, −0.0786) per unit; what is negative becomes 0.
+    // P3 green in Rec. 709 is (−0.2249, 1.0421, −0.0786) per unit; negative values become 0.
     assert_close(&Environment::load(&path).unwrap().0.radiance[4], &[0.0, 0.52103, 0.0], 1e-3);
 }
 
@@ -111,7 +111,7 @@ fn a_layer_with_colours_is_found_and_named() {
     assert!(warnings[0].reason.contains("Combined.R"), "{warnings:?}");
 }
 
-/// A picture of Radiance, 3 × 2 texels without run lengths, whose texels have the mantissas of `texel`.
+/// A Radiance picture of 3 × 2 texels without run lengths, whose texels have the mantissas of `texel`.
 fn hdr(header: &str, texels: &[[u8; 4]]) -> Vec<u8> {
     [header.as_bytes(), texels.as_flattened()].concat()
 }
@@ -119,7 +119,7 @@ fn hdr(header: &str, texels: &[[u8; 4]]) -> Vec<u8> {
 #[test]
 fn hdr_pictures_of_all_eight_orientations_are_upright() {
     let folder = Folder::new();
-    // Texel (x, y) has the red x + 1 and the green y + 1: mantissas of eights, because two ones would begin a run.
+    // Texel (x, y) has the red x + 1 and the green y + 1. The mantissas are multiples of eight, because two ones would begin a run.
     let texel = |x: usize, y: usize| [8 * (x as u8 + 1), 8 * (y as u8 + 1), 0, 133];
     let (width, height) = (3, 2);
     for y_sign in ['-', '+'] {
@@ -159,14 +159,14 @@ fn hdr_headers_of_every_kind() {
         ("#?RADIANCE\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n", [0.5, 1.0, 0.25]),
         ("#?RADIANCE\n# a comment\nrpict -vf x.vf\nEXPOSURE=2\nEXPOSURE= 4.0\n\n", [0.0625, 0.125, 0.03125]),
         ("#?RADIANCE\nCOLORCORR= 2 4 1\nEXPOSURE=0.5\n\n", [0.5, 0.5, 0.5]),
-        // The primaries of Rec. 709: nothing changes.
+        // The primaries of Rec. 709 change nothing.
         ("#?RADIANCE\nPRIMARIES= .64 .33 .3 .6 .15 .06 .3127 .329\n\n", [0.5, 1.0, 0.25]),
     ] {
         assert_close(&read(header).unwrap(), &expected, 1e-5);
     }
     assert!(read("#?RADIANCE\nFORMAT=32-bit_rle_luv\n\n").unwrap_err().reason.contains("32-bit_rle_luv"));
 
-    // X = Y = Z is white, and stays so.
+    // X = Y = Z is white, and stays white.
     let path =
         folder.write("xyz.hdr", hdr("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n", &[[128, 128, 128, 129]]));
     assert_close(&Environment::load(path).unwrap().0.radiance[0], &[1.0; 3], 2e-3);

@@ -1,11 +1,11 @@
-//! glTF files of which nothing can be drawn: each must give an error that names file, element and reason.
+//! glTF files of which nothing can be drawn: each must give an error with file, element and reason.
 
 use asvgf::scene::load;
 use serde_json::{Value, json};
 
 use crate::common::*;
 
-/// A file in which a change breaks one thing.
+/// Asserts that a file with one broken element is refused.
 fn broken(change: impl FnOnce(&mut Gltf), element: &str, reason: &str) {
     let mut gltf = Gltf::triangle();
     let indices = gltf.indices(&[0, 1, 2]);

@@ -222,7 +222,7 @@ fn glb_files_with_chunks_of_other_kinds() {
     let mut json = gltf.json.clone();
     json["buffers"] = json!([{"byteLength": gltf.bytes.len()}]);
     let bytes = glb(&[(b"JSON", json.to_string().as_bytes()), (b"XTRA", b"1234"), (b"BIN\0", &gltf.bytes)]);
-    // An odd length of the first chunk puts the next one at a multiple of four.
+    // The first chunk has an odd length, and the next one starts at a multiple of four.
     let padding = json.to_string().len().next_multiple_of(4) - json.to_string().len();
     let at = 20 + json.to_string().len();
     let mut padded = [&bytes[..at], &vec![b' '; padding], &bytes[at..]].concat();

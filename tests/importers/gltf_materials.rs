@@ -126,7 +126,7 @@ fn texture_transforms() {
     let loaded = gltf.load().unwrap();
     let texture = loaded.scene.materials[0].base_color_texture.unwrap();
     assert_eq!(texture.uv_set, 0);
-    // The example of the extension: the lower left quadrant of the image, rotated clockwise.
+    // The example in the extension's specification: the lower left quadrant of the image, rotated clockwise.
     let at = |u: f32, v: f32| texture.transform.map(|row| row[0] * u + row[1] * v + row[2]);
     assert_close(&at(0.0, 0.0), &[0.0, 1.0], 1e-6);
     assert_close(&at(1.0, 0.0), &[0.0, 0.5], 1e-6);

@@ -1,11 +1,11 @@
-//! glTF files with one broken element each: the element costs itself and one warning, the rest is drawn.
+//! glTF files with one broken element each: the element is lost with one warning, and the rest is drawn.
 
 use asvgf::scene::{Interpolation, Target, Transform, Wrap, load};
 use serde_json::{Value, json};
 
 use crate::common::*;
 
-/// A file in which a change breaks one thing: the triangle is drawn nevertheless.
+/// Asserts that the triangle of a file with one broken element is drawn nevertheless.
 #[track_caller]
 fn mended(change: impl FnOnce(&mut Gltf), element: &str, reason: &str) -> asvgf::scene::Scene {
     let mut gltf = Gltf::triangle();
@@ -40,7 +40,7 @@ fn indices_that_lead_nowhere() {
 
 #[test]
 fn triangles_that_use_vertices_that_are_not_finite() {
-    // A vertex that is not finite costs its triangles, and one that nothing uses costs nothing.
+    // A vertex that is not finite costs its triangles; if nothing uses it, it costs nothing.
     let broken_vertex = |used: u16| {
         move |gltf: &mut Gltf| {
             let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, f32::NAN, 0.0, 0.0];
@@ -246,7 +246,7 @@ fn glb_chunks_without_padding() {
         let loaded = load(Folder::new().write("unpadded.glb", [header, chunks.clone()].concat())).unwrap();
         assert_eq!(loaded.scene.triangle_count(), 1);
     }
-    // Zeros where spaces belong.
+    // The padding has zeros instead of spaces.
     let padded = [text.as_bytes(), &[0; 5]].concat();
     let file = glb(&[(b"JSON", &padded), (b"BIN\0", &gltf.bytes)]);
     assert_warnings(&load(Folder::new().write("zeros.glb", file)).unwrap(), &[]);

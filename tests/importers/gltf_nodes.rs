@@ -30,9 +30,9 @@ fn transforms_of_all_kinds_nest_and_share_meshes() {
     assert_eq!(scene.triangle_count(), 3);
     assert_eq!(scene.nodes.iter().map(|node| node.parent).collect::<Vec<_>>(), [None, Some(0), Some(1), Some(0)]);
     assert!(matches!(scene.nodes[0].transform, Transform::Matrix(_)));
-    // A shear of determinant 4 in the plane of the triangle.
+    // The shear has determinant 4 in the plane of the triangle.
     assert!((area(&loaded) - 6.0).abs() < 1e-6);
-    // (0, 0, 0) moved by (1, 2, 3), turned to (-2, 1, 3), sheared.
+    // (0, 0, 0) is moved by (1, 2, 3), turned to (-2, 1, 3), and sheared.
     let pose = scene.pose(None, 0.0);
     assert_close(&pose.world[2][3], &[5.0 - 4.0 + 1.0, 2.0, 6.0, 1.0], 1e-5);
 }
@@ -61,10 +61,10 @@ fn a_scene_may_list_nodes_that_are_not_roots() {
     let nodes = json!([
         {"children": [1], "translation": [100, 0, 0]}, {"mesh": 0, "children": [2]}, {"mesh": 0, "translation": [0, 0, 4]},
     ]);
-    // Below a node that is not in the scene.
+    // The parent is not in the scene.
     let loaded = with_nodes(nodes.clone(), json!([{"nodes": [1]}])).load().unwrap();
     assert_eq!(bounds(&loaded), [[0.0, 0.0, 0.0], [1.0, 1.0, 4.0]]);
-    // Below a node that is in the scene as well, and one of them twice.
+    // The parent is in the scene as well, and one of the nodes is there twice.
     let loaded = with_nodes(nodes, json!([{"nodes": [2, 1, 0, 0]}])).load().unwrap();
     assert_eq!(loaded.scene.triangle_count(), 2);
     assert_eq!(bounds(&loaded)[0], [100.0, 0.0, 0.0]);

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::common::*;
 
-/// A square of 2 × 2 around the origin of its mesh, whose two triangles share no vertices with others.
+/// A square of 2 × 2 around the origin of its mesh. Its two triangles share no vertices.
 fn square() -> Gltf {
     let mut gltf = Gltf::new();
     let position = gltf.floats("VEC3", &[-1.0, -1.0, 0.0, 1.0, -1.0, 0.0, 1.0, 1.0, 0.0, -1.0, 1.0, 0.0]);
@@ -49,7 +49,7 @@ fn a_skin_places_its_mesh_and_the_node_does_not() {
     gltf.json["scenes"] = json!([{"nodes": [0, 1]}]);
     gltf.json["skins"] = json!([{"joints": [2]}]);
     assert_eq!(drawn(&gltf, &[]).1, [[1.5, -0.5, 0.0], [2.5, 0.5, 0.0]]);
-    // The inverse bind matrix takes the joint's own place out.
+    // The inverse bind matrix removes the joint's own place.
     let mut matrix = [0.0_f32; 16];
     [0, 5, 10, 15].into_iter().for_each(|diagonal| matrix[diagonal] = 1.0);
     matrix[12] = -4.0;
@@ -61,7 +61,7 @@ fn a_skin_places_its_mesh_and_the_node_does_not() {
 #[test]
 fn joints_mix_by_their_weights_in_any_number_of_sets() {
     let mut gltf = square();
-    // Weights that do not sum up to 1: a third of each joint.
+    // The weights do not sum to 1: a third goes to each joint.
     bind(&mut gltf, &[0, 1, 0, 0, 2, 0, 0, 0], &[2.0, 2.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0]);
     gltf.json["nodes"] = json!([
         {"mesh": 0, "skin": 0}, {"translation": [3, 0, 0]}, {"translation": [0, 6, 0]}, {"translation": [0, 0, 9]},
@@ -77,7 +77,7 @@ fn normals_follow_their_joints() {
     let mut gltf = square();
     bind(&mut gltf, &[0; 4], &[1.0, 0.0, 0.0, 0.0]);
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    // A quarter turn about x takes z to −y; joints in centimetres.
+    // A quarter turn about x turns z to −y; the joints are in centimetres.
     gltf.json["nodes"] = json!([
         {"mesh": 0, "skin": 0}, {"rotation": [half, 0, 0, half], "scale": [0.01, 0.01, 0.01]},
     ]);
@@ -98,7 +98,7 @@ fn a_skin_that_is_broken_leaves_the_mesh_where_its_node_is() {
     gltf.json["skins"] = json!([{"joints": [9]}]);
     let (_, bounds) = drawn(&gltf, &[("skins[0].joints[0]", "drawn without its skin")]);
     assert_eq!(bounds, [[6.0, -1.0, 0.0], [8.0, 1.0, 0.0]]);
-    // A joint that the skin has not costs itself.
+    // A joint that the skin lacks is ignored.
     let mut gltf = square();
     bind(&mut gltf, &[0, 9, 0, 0], &[0.5, 0.5, 0.0, 0.0]);
     gltf.json["skins"] = json!([{"joints": [0]}]);
@@ -135,7 +135,7 @@ fn morph_targets_have_the_weights_of_the_mesh_or_of_the_node() {
     assert_eq!(drawn(&gltf, &[]).1, [[-1.0, -1.0, 0.0], [1.0, 1.0, 0.0]], "no weights: the base");
     gltf.json["meshes"][0]["weights"] = json!([1.0, 0.0]);
     assert_eq!(drawn(&gltf, &[]).1, [[-2.0, -1.0, 0.0], [2.0, 1.0, 0.0]]);
-    // Two nodes with weights of their own are two shapes of one mesh.
+    // Two nodes with different weights are two shapes of one mesh.
     gltf.json["nodes"] = json!([{"mesh": 0, "weights": [0.5, 1.0]}, {"mesh": 0}]);
     gltf.json["scenes"] = json!([{"nodes": [0, 1]}]);
     let (scene, bounds) = drawn(&gltf, &[]);
@@ -163,7 +163,7 @@ fn instances_are_placed_relative_to_their_node() {
     let mut gltf = square();
     let translations = gltf.floats("VEC3", &[0.0, 0.0, 0.0, 10.0, 0.0, 0.0, 0.0, 20.0, 0.0]);
     let scales = gltf.floats("VEC3", &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 1.0, 1.0, 1.0]);
-    // A half turn about z in normalised bytes.
+    // The rotation is a half turn about z in normalised bytes.
     let rotations = gltf.accessor(5120, "VEC4", 3, &[0, 0, 127, 0].repeat(3));
     gltf.json["accessors"][rotations]["normalized"] = json!(true);
     let attributes = json!({"TRANSLATION": translations, "SCALE": scales, "ROTATION": rotations});

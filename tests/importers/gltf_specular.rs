@@ -1,4 +1,4 @@
-//! The dielectric part: KHR_materials_ior, KHR_materials_specular, KHR_materials_pbrSpecularGlossiness.
+//! Dielectric reflection: KHR_materials_ior, KHR_materials_specular, KHR_materials_pbrSpecularGlossiness.
 
 use asvgf::scene::{Alpha, Material, Scene};
 use serde_json::{Value, json};
@@ -54,7 +54,7 @@ fn glossiness_becomes_roughness() {
     assert_close(&green.base_color, &[0.05, 0.3, 0.1, 0.5], 1e-6);
     assert_eq!((green.specular, green.metallic, green.roughness), ([0.5, 0.25, 0.0], 0.0, 0.25));
 
-    // The glossiness of a texture, 204 of 255 times ½, is a roughness of 153.
+    // A texture's glossiness of 204 of 255, times ½, is a roughness of 153.
     let textured =
         json!({"specularGlossinessTexture": {"index": 0}, "diffuseTexture": {"index": 0}, "glossinessFactor": 0.5});
     let scene = scene(json!({"KHR_materials_pbrSpecularGlossiness": textured}), &[]);
@@ -72,12 +72,12 @@ fn glass_is_a_thin_pane() {
     let pane = json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.5}});
     let warned = [("materials[0].KHR_materials_transmission", "thin pane")];
     let pane = scene(pane, &warned).materials[0].clone();
-    // 4 % are reflected like a mirror, the rest goes through.
+    // 4 % of the light is reflected like a mirror, the rest goes through.
     assert_eq!(pane.alpha, Alpha::Blend);
     assert_close(&[pane.base_color[0], pane.base_color[3]], &[0.0, 0.04], 1e-6);
     assert_close(&pane.specular, &[1.0; 3], 1e-5);
     let half = scene(json!({"KHR_materials_transmission": {"transmissionFactor": 0.5}}), &warned).materials[0].clone();
-    // τ = 0.48: what a ray meets, times how often it meets it, is (1 − t)(1 − F₀) = 0.48 and F₀ = 0.04.
+    // With τ = 0.48: the colours that a ray meets, times the probability of meeting them, are (1 − t)(1 − F₀) = 0.48 and F₀ = 0.04.
     assert_close(&[half.base_color[3], half.base_color[0] * 0.52, half.specular[0] * 0.52], &[0.52, 0.48, 0.04], 1e-5);
     let none = material(json!({"KHR_materials_transmission": {}}));
     assert_eq!((none.alpha, none.base_color[3]), (Alpha::Opaque, 1.0));

@@ -29,7 +29,7 @@ fn named_channels_survive_unchanged() {
     assert_eq!(read, image);
     assert_eq!(read.get("albedo.R"), Some(samples.as_slice()));
     assert_eq!(read.get("albedo.G"), None);
-    // Written again in its place, and nothing else left behind.
+    // The file is written again in its place, and nothing else is left behind.
     write_exr_rgb(&path, 1, 1, &[[1.0, 2.0, 3.0]]).unwrap();
     assert_eq!(read_exr(&path).unwrap().get("G"), Some([2.0].as_slice()));
     assert_eq!(files(&folder), ["frame.exr"]);
@@ -57,7 +57,7 @@ fn half_floats_integers_and_parts() {
     assert_eq!(read.get("beauty.id"), Some([7.0, 9.0].as_slice()));
 }
 
-/// Windows, attributes, types and compression come out as they went in, through other colours.
+/// Windows, attributes, types and compression survive a change of the colours.
 #[test]
 fn what_an_exr_file_says_beside_its_samples_is_kept() {
     let folder = Folder::new();
@@ -117,7 +117,7 @@ fn windows_are_placed_in_others() {
     assert_eq!(small.union(window(3, 0, 1, 1)), window(-1, 0, 5, 4));
     let into = window(-2, 1, 3, 3);
     assert_eq!(small.place(&[1.0, 2.0, 3.0, 4.0], into, 0.0), [0.0, 0.0, 0.0, 0.0, 1.0, 2.0, 0.0, 3.0, 4.0]);
-    // Cut at all sides, and nothing in common.
+    // One window is cut at all sides; another has nothing in common.
     assert_eq!(into.place(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], window(-1, 2, 1, 1), 9.0), [4.0]);
     assert_eq!(small.place(&[1.0; 4], window(40, 40, 1, 2), 9.0), [9.0, 9.0]);
     assert_eq!(small.place(&[1.0; 4], window(-40, -40, 1, 2), 9.0), [9.0, 9.0]);

@@ -1,4 +1,4 @@
-//! Images of every format that textures may have.
+//! Images in every format that textures may have.
 
 use std::io::Cursor;
 
@@ -31,7 +31,7 @@ fn texels_are_those_of_the_file() {
         (ImageFormat::Tga, "a.tga"),
         (ImageFormat::Tiff, "a.tiff"),
         (ImageFormat::WebP, "a.webp"),
-        // The first bytes decide, whatever the name says.
+        // The first bytes decide the format, whatever the name says.
         (ImageFormat::Tga, "a.png"),
         (ImageFormat::Png, "a.jpg"),
     ] {
@@ -52,11 +52,11 @@ fn texels_are_those_of_the_file() {
 fn ktx2(format: u32, size: [u32; 2], supercompression: u32, data: &[u8]) -> Vec<u8> {
     const DATA: u32 = 80 + 24 + 4;
     let mut bytes = b"\xABKTX 20\xBB\r\n\x1A\n".to_vec();
-    // Format, size of a type, width, height, depth, layers, faces, levels, supercompression.
+    // The header: format, size of a type, width, height, depth, layers, faces, levels, supercompression.
     for word in [format, 1, size[0], size[1], 0, 0, 1, 1, supercompression] {
         bytes.extend(word.to_le_bytes());
     }
-    // Data format descriptor, keys, global data.
+    // The index: data format descriptor, keys, global data.
     for word in [104_u32, 4, 0, 0, 0, 0, 0, 0] {
         bytes.extend(word.to_le_bytes());
     }

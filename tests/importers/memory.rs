@@ -1,4 +1,4 @@
-//! Scenes whose files lie in memory are what they are on disk.
+//! Scenes load the same from memory as from disk.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ fn files<const N: usize>(files: [(&str, Vec<u8>); N]) -> Files {
     files.into_iter().map(|(path, bytes)| (path.into(), bytes)).collect()
 }
 
-/// A glTF file with a buffer and an image in files of their own, in folders.
+/// A glTF file whose buffer and image are separate files in folders.
 fn gltf() -> Files {
     let mut gltf = Gltf::textured_triangle();
     gltf.json["buffers"] = json!([{"byteLength": gltf.bytes.len(), "uri": "data/triangle.bin"}]);
@@ -37,7 +37,7 @@ fn obj() -> Files {
     files([("test.obj", scene.into()), ("parts/a.mtl", library.into()), ("wood.png", image)])
 }
 
-/// What the same files are on disk, scene and warnings.
+/// The scene and warnings of the same files on disk.
 fn on_disk(files: &Files, path: &str) -> String {
     let folder = Folder::new();
     for (path, bytes) in files {
@@ -97,7 +97,7 @@ fn what_is_not_in_the_folder_of_the_scene_is_not_read() {
         gltf.json["buffers"] = json!([{"byteLength": gltf.bytes.len(), "uri": uri}]);
         let mut files = files([("scene/test.gltf", gltf.text().into()), ("secret.bin", gltf.bytes.clone())]);
         assert_error(load_from_memory(&files, "scene/test.gltf"), "test.gltf", "buffers[0]", "not within the folder");
-        // What has that name in the folder stands for a path of another machine, and never for a network address.
+        // A file of that name in the folder stands for a path of another machine, and never for a network address.
         files.insert("scene/secret.bin".into(), gltf.bytes);
         match load_from_memory(&files, "scene/test.gltf") {
             Ok(loaded) => assert_warnings(&loaded, &[("buffers[0]", "\"secret.bin\" is read instead")]),

@@ -1,5 +1,5 @@
-//! OBJ files: objects, indices, materials by name. `obj_faces`, `obj_normals`, `obj_text`, `obj_colors`, `obj_materials`,
-//! `obj_maps` and `obj_broken` have the rest.
+//! OBJ files: objects, indices, materials by name. The rest is in `obj_faces`, `obj_normals`, `obj_text`, `obj_colors`,
+//! `obj_materials`, `obj_maps` and `obj_broken`.
 
 use asvgf::scene::{Loaded, Mesh, Scene, SceneError, load};
 
@@ -12,7 +12,7 @@ pub fn read(obj: impl AsRef<[u8]>, mtl: impl AsRef<[u8]>) -> Result<Loaded, Scen
     load(folder.write("test.obj", obj))
 }
 
-/// A triangle with a material.
+/// Loads a triangle with a material.
 pub fn material(mtl: &str) -> Loaded {
     read("mtllib test.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n", format!("newmtl m\n{mtl}")).unwrap()
 }
@@ -56,7 +56,7 @@ fn faces_with_and_without_attributes_may_mix() {
         .map(|mesh| (mesh.triangles.len(), !mesh.normals.is_empty(), !mesh.uvs[0].is_empty()))
         .collect();
     kinds.sort();
-    // An attribute that is not at every corner of a face does not count for it.
+    // A face ignores an attribute that is missing at some of its corners.
     assert_warnings(&loaded, &[("line 10", "only some corners have texture coordinates or normals")]);
     assert_eq!(kinds, [(1, false, false), (2, false, true), (2, true, false)]);
     loaded.scene.validate().unwrap();
@@ -124,12 +124,12 @@ fn names_of_libraries_in_quotes_or_twice() {
     assert_warnings(&quoted, &[("line 1", "\"my lib.mtl\" is read"), ("line 2", "\"b.mtl\" is read")]);
     let list = load(folder.write("test.obj", text("mtllib \"my lib.mtl\" \"b.mtl\""))).unwrap();
     assert_warnings(&list, &[]);
-    // Of a list, what is there is read.
+    // The existing files of a list are read.
     let partly = load(folder.write("test.obj", text("mtllib b.mtl absent.mtl"))).unwrap();
     assert_warnings(&partly, &[("line 1", "absent.mtl")]);
 }
 
-/// Faces of the default material, which is not the one before.
+/// Faces after an empty `usemtl` get the default material, and not the previous one.
 #[test]
 fn materials_end_where_another_starts() {
     let loaded =

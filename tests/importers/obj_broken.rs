@@ -1,4 +1,4 @@
-//! OBJ and MTL files of which one element is broken at random, and files that are broken all over.
+//! OBJ and MTL files with one element broken at random, and files that are broken all over.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -14,12 +14,12 @@ const OBJ: &str = "mtllib test.mtl\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\
 const MTL: &str = "newmtl m\nKd 0.5 0.5 0.5\nKs 0.1 0.1 0.1\nNs 30\nillum 2\nd 1\nmap_Kd a.png\nmap_Ke a.png\nnewmtl n\n\
                    Kd 0.2 0.2 0.2\nKe 1 1 1\nPr 0.5\nPm 0.5\nmap_Pr a.png\n";
 
-/// What else there is, for bytes that are broken anywhere.
+/// Further statements, for bytes that are broken anywhere.
 const MORE: &str = "s 1\nv 0 0 2 1 0 0\nv 2 0 2 0 1 0 1\nv 2 2 2.1 255 0 0\nv 1 .5 2\nv 0 2 2\nv 1 1 3\n\
                     f -6 -5 -4 -3 -2\nf -6 -1 -5\nf -5 -1 -4 -3\ns 2\nf -6/1 -5/2 -4/3 -3 -2/4\n#MRGB ff0011ff\n\
                     f 1 3 2 4\nf 1 2 \\\n3 3 4 1\ng a b\nusemtl q\n";
 
-/// Statements that may be broken, with the words after them that break them, and whether a face is lost.
+/// Statements that may be broken, the words after them that break them, and true if a face is lost.
 const OBJ_BREAKS: &[(&str, &[&str], bool)] = &[
     ("vt 1 1", &["vt nan 0", "vt", "vt x y", "vt 0 1e99", "vt -nan(ind) 0"], false),
     ("vn 0 0 1", &["vn nan 0 0", "vn", "vn 0 0", "vn 0 0 0", "vn x y z", "vn 1.#QNAN 0 0", "vn inf 0 1"], false),
@@ -96,7 +96,7 @@ proptest! {
         prop_assert_eq!(area(&loaded), 1.5);
     }
 
-    /// Whatever the bytes, there is a scene that keeps the rules, or an error.
+    /// Any bytes give a valid scene or an error.
     #[test]
     fn any_bytes_are_read_or_refused(
         mutations in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 0..12),

@@ -3,7 +3,7 @@
 use crate::common::*;
 use crate::obj::read;
 
-/// Linear value of an sRGB one.
+/// The linear value of an sRGB value.
 fn linear(encoded: f32) -> f32 {
     if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
@@ -21,7 +21,7 @@ fn colors_are_srgb_and_seen_as_they_are() {
     assert_eq!(mesh.colors[0], [1.0, 0.0, 0.0, 1.0]);
     assert_close(&mesh.colors[1], &[linear(0.5), linear(0.25), linear(0.125), 1.0], 1e-6);
     assert_close(&mesh.colors[2], &[0.0, 0.02 / 12.92, 1.0, 0.5], 1e-6);
-    // Without a material, white takes the place of grey.
+    // Without a material, white replaces grey.
     assert_eq!(loaded.scene.materials[mesh.material].base_color, [1.0; 4]);
 }
 
@@ -54,7 +54,7 @@ fn colors_that_cannot_be_read_are_white() {
         assert_eq!(loaded.scene.meshes[0].colors[1], [1.0; 4], "{broken}");
         assert_eq!(area(&loaded), 0.5);
     }
-    // A fourth number is a weight, and no colour.
+    // A fourth number is a weight, not a colour.
     assert!(read(triangle(["1", "1", "0.5"]), "").unwrap().scene.meshes[0].colors.is_empty());
 }
 

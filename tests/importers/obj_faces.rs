@@ -1,4 +1,4 @@
-//! OBJ files: polygons, and faces that are broken.
+//! OBJ files: polygons, and broken faces.
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
@@ -22,13 +22,13 @@ fn polygons_are_triangulated() {
     assert!(material.double_sided);
 }
 
-/// An arrow head whose third corner is a dent.
+/// An arrow head whose third corner is concave.
 const DART: &[[f32; 2]] = &[[0.0, -0.8], [0.8, 0.8], [0.0, 0.0], [-0.8, 0.8]];
 /// A rectangle with a notch.
 const C: &[[f32; 2]] =
     &[[0.0, 0.0], [1.0, 0.0], [1.0, 0.75], [0.2, 0.75], [0.2, 1.25], [1.0, 1.25], [1.0, 2.0], [0.0, 2.0]];
 
-/// One polygon, each corner mapped.
+/// Loads one polygon, with each corner mapped.
 fn polygon(ring: &[[f32; 2]], place: impl Fn(Vec3) -> Vec3) -> Loaded {
     let mut text = String::new();
     for &[x, y] in ring {
@@ -85,7 +85,7 @@ fn repeated_corners_count_once() {
     assert_eq!((triangle.scene.triangle_count(), area(&triangle)), (1, 0.5));
 }
 
-/// A neighbour may have a vertex there: an edge without it would have a crack.
+/// A neighbour may have a vertex at such a corner: an edge without it would have a crack.
 #[test]
 fn corners_on_an_edge_are_kept() {
     let ring = [[0.0, 0.0], [0.25, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 0.5], [1.0, 1.0], [0.0, 1.0]];
@@ -95,7 +95,7 @@ fn corners_on_an_edge_are_kept() {
         assert_eq!((loaded.scene.triangle_count(), area(&loaded)), (5, 1.0));
         assert_eq!(loaded.scene.meshes[0].positions.len(), 7);
     }
-    // A quad with a corner on an edge.
+    // The quad has a corner on an edge.
     let loaded = polygon(&[[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [0.0, 1.0]], |corner| corner);
     assert_eq!((loaded.scene.triangle_count(), area(&loaded)), (2, 0.5));
     assert!(areas(&loaded.scene).iter().all(|area| area.z == 0.25), "{:?}", areas(&loaded.scene));
@@ -110,10 +110,10 @@ fn quads_are_split_along_the_shorter_diagonal() {
             assert!(triangle.contains(&[1.0, -0.2, 0.0]) && triangle.contains(&[1.0, 0.2, 0.0]), "{triangle:?}");
         }
     }
-    // Of the same length: from the first corner.
+    // The diagonals have the same length: the one from the first corner is taken.
     let square = read(format!("{SQUARE}f 2 3 4 1\n"), "").unwrap();
     assert!(corners(&square.scene).as_chunks::<3>().0.iter().all(|triangle| triangle.contains(&[1.0, 0.0, 0.0])));
-    // Not planar: a roof over the shorter diagonal.
+    // The quad is not planar: it becomes a roof over the shorter diagonal.
     let roof = read("v 0 0 0\nv 1 0 0.5\nv 1 1 0\nv 0 1 0.6\nf 1 2 3 4\n", "").unwrap();
     assert_warnings(&roof, &[]);
     assert!(corners(&roof.scene).as_chunks::<3>().0.iter().all(|triangle| triangle.contains(&[1.0, 1.0, 0.0])));
@@ -124,12 +124,12 @@ fn polygons_without_a_proper_area() {
     let flat = "f 1 2 5 1\nf 1 1 1 1 1\nf 1 2 1 2\nf 1 2 5 2 1\n";
     let loaded = read(format!("{SQUARE}v 2 0 0\n{flat}f 1 2 3 4\n"), "").unwrap();
     assert_warnings(&loaded, &[("line 7", "no area; the face is left out (3 faces like this)")]);
-    // The first is a triangle after its last corner is gone.
+    // The first face is a triangle after the loss of its last corner.
     assert_eq!((loaded.scene.triangle_count(), area(&loaded)), (3, 1.0));
     let loaded = read(format!("{SQUARE}v 2 0 0\nf 1 2 1 2\n"), "");
     assert_error(loaded, "test.obj", "line 6", "no area; the face is left out; no face of the file can be drawn");
 
-    // A line of rounded positions.
+    // The corners are rounded positions on a line.
     let tilted: Vec<_> = [0.0, 1.0, 2.0, 3.5, 5.0].iter().map(|along| [along * 0.3, along * 0.7]).collect();
     let text = |corners: usize| (1..=corners).fold("f".to_owned(), |face, corner| format!("{face} {corner}"));
     let line: String = tilted.iter().map(|[x, y]| format!("v {x} {y} {}\n", x * 0.1_f32)).collect();
@@ -143,7 +143,7 @@ fn polygons_without_a_proper_area() {
     assert_warnings(&polygon(&star, |corner| corner), &[("line 6", "its edges cross")]);
 }
 
-/// Corners of a polygon on a circle, whose radius varies.
+/// Corners of a polygon around a centre, with a varying radius.
 fn round(count: usize, radius: impl Fn(usize) -> f32) -> Vec<[f32; 2]> {
     let turn = |i| (i as f32 / count as f32 * std::f32::consts::TAU).sin_cos();
     (0..count).map(|i| [turn(i).1 * radius(i), turn(i).0 * radius(i)]).collect()

@@ -6,7 +6,7 @@ use asvgf::scene::{Alpha, Image, Loaded, Material, Texture, Wrap, load};
 
 use crate::common::*;
 
-/// A PNG file of these texels, with alpha or without.
+/// A PNG file of these texels, with or without alpha.
 fn picture(width: u32, texels: &[[u8; 4]], alpha: bool) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     let image = image::RgbaImage::from_raw(width, texels.len() as u32 / width, texels.as_flattened().to_vec()).unwrap();
@@ -20,7 +20,7 @@ const BLACK: [u8; 4] = [0, 0, 0, 255];
 const WHITE: [u8; 4] = [255; 4];
 const RED: [u8; 4] = [200, 10, 20, 255];
 
-/// A triangle with a material, beside images of 2 × 1 texels.
+/// Loads a triangle with a material, beside images of 2 × 1 texels.
 fn textured(mtl: &str) -> Loaded {
     let folder = Folder::new();
     folder.write("red.png", picture(2, &[RED; 2], false));
@@ -75,7 +75,7 @@ fn opacity_of_a_file_of_its_own() {
     let alone = textured("Kd 0 1 0\nmap_d mask.png\n");
     assert_eq!(base(&alone), [[255, 255, 255, 0], WHITE]);
     assert_eq!(alone.scene.materials[0].base_color, [0.0, 1.0, 0.0, 1.0]);
-    // The same file: its alpha channel where it has one, otherwise what it shows.
+    // Both maps are the same file: opacity is its alpha channel if it has one, otherwise its colour.
     let leaf = textured("map_Kd leaf.png\nmap_d leaf.png\n");
     assert_eq!((base(&leaf), leaf.scene.materials[0].alpha), (vec![[200, 10, 20, 0], RED], Alpha::Blend));
     let grey = textured("map_Kd mask.png\nmap_d mask.png\n");
@@ -139,7 +139,7 @@ fn roughness_and_metalness_in_one_texture() {
     assert_eq!(surface("Pr 0.5\nPm 0\nmap_Pm half.png\n"), (metal.to_vec(), [0.5, 1.0]));
     let both = [[255, 128, 64, 255], [255, 255, 64, 255]];
     assert_eq!(surface("map_Pr half.png\nmap_Pm small.png\n"), (both.to_vec(), [1.0; 2]));
-    // As glTF packs them.
+    // The channels are packed as in glTF.
     assert_eq!(surface("map_Pr packed.png\nmap_Pm packed.png\n"), (vec![[0, 50, 150, 255]; 2], [1.0; 2]));
     let channels = surface("map_Pr -imfchan b packed.png\nmap_Pm -imfchan g packed.png\n");
     assert_eq!(channels, (vec![[255, 150, 50, 255]; 2], [1.0; 2]));
@@ -174,6 +174,6 @@ fn textures_need_texture_coordinates() {
     let text = "mtllib test.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no thing\nusemtl m\nf 1 2 3\n";
     let loaded = load(folder.write("test.obj", text)).unwrap();
     assert_warnings(&loaded, &[("object \"thing\"", "without texture coordinates have the material \"m\"")]);
-    // What may be a comment may be part of a name.
+    // Text that looks like a comment may be part of a name.
     assert!(loaded.scene.materials[0].base_color_texture.is_some());
 }

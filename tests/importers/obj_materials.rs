@@ -31,7 +31,7 @@ fn opacity() {
     }
     assert_warnings(&material("d 0\n"), &[("material \"m\"", "its opacity is 0")]);
     assert_warnings(&material("d -halo 1\n"), &[]);
-    // `d` wins wherever they stand.
+    // `d` wins over `Tr` in any order.
     for both in ["d 1\nTr 1\n", "Tr 1\nd 1\n", "TR 0\nD 1.0\n"] {
         assert_warnings(&material(both), &[]);
         assert_eq!(material(both).scene.materials[0].alpha, Alpha::Opaque);
@@ -63,7 +63,7 @@ fn roughness_and_metalness() {
     let metal = &material("Kd .9 .6 .3\nPr 0.2\nPm 1.0\nKs 1 1 1\n").scene.materials[0];
     assert_eq!((metal.base_color, metal.roughness, metal.metallic), ([0.9, 0.6, 0.3, 1.0], 0.2, 1.0));
     assert_close(&metal.specular, &[0.04; 3], 1e-6);
-    // A dielectric reflects as its index of refraction says, also if Kd is black.
+    // A dielectric reflects by its index of refraction, even if Kd is black.
     let dielectric = &material("Kd 0 0 0\nKs 0.5 0.5 0.5\nPr 0.5\nNi 2\n").scene.materials[0];
     assert_eq!((dielectric.metallic, dielectric.roughness), (0.0, 0.5));
     assert_close(&dielectric.specular, &[1.0 / 9.0; 3], 1e-6);
@@ -87,11 +87,11 @@ fn illumination_models() {
         assert_warnings(&loaded, &[("material \"m\"", &format!("illum {glass} (glass) is drawn as a thin pane"))]);
         let material = &loaded.scene.materials[0];
         assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Blend), "no mirror");
-        // 4 % are reflected, the rest goes through.
+        // 4 % of the light is reflected, the rest goes through.
         assert_close(&[material.base_color[3], material.specular[0] * 0.04], &[0.04; 2], 1e-6);
     }
     assert_warnings(&made("12"), &[("material \"m\"", "illum 12 is not known; 2 is used")]);
-    // One warning for what is one defect.
+    // One defect gives one warning.
     assert_warnings(&material("illum 9\nd 0.75\nTf 1 0 0\n"), &[("m", "illum 9 (glass) does not refract")]);
     assert_warnings(&material("illum 2\nTf 1 1 1\n"), &[]);
     assert_warnings(&material("illum 2\nTf 1 0.5 1\n"), &[("m", "Tf (coloured transmission) is not read")]);
@@ -111,7 +111,7 @@ fn keywords_that_are_not_read_are_named_once() {
 
 #[test]
 fn colours_in_other_spaces() {
-    // The white of Rec. 709, and its green primary at Y = 0.7152.
+    // The colours are the white of Rec. 709, and its green primary at Y = 0.7152.
     let white = material("Kd xyz 0.950456 1 1.089058\n");
     assert_warnings(&white, &[]);
     assert_close(&white.scene.materials[0].base_color, &[1.0; 4], 1e-3);
@@ -126,7 +126,7 @@ fn names_of_materials() {
         read(format!("mtllib test.mtl\n{SQUARE}usemtl {name}\nf 1 2 3\n"), library).unwrap()
     };
     let drawn = |loaded: &asvgf::scene::Loaded| loaded.scene.materials[loaded.scene.meshes[0].material].name.clone();
-    // What may be a comment may be a name.
+    // Text that looks like a comment may be a name.
     let library = "newmtl Material #1\nnewmtl Material #2\nnewmtl plain # note\n";
     assert_eq!(used("Material #2", library).scene.meshes[0].material, 1);
     assert_eq!(drawn(&used("plain", library)), "plain");
@@ -145,7 +145,7 @@ fn names_of_materials() {
         &[("line 5", "there is no name; the faces after it are drawn in the default material (2")],
     );
     assert_eq!(drawn(&unnamed), "default");
-    // A file that names no library has the one beside it.
+    // A file that names no library uses the one beside it.
     let unsaid = read(format!("{SQUARE}usemtl a\nf 1 2 3\n"), "newmtl a\nKd 1 0 0\n").unwrap();
     assert_warnings(&unsaid, &[("file", "names no material library; \"test.mtl\" beside it is read")]);
     assert_eq!(drawn(&unsaid), "a");

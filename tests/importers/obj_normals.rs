@@ -1,4 +1,4 @@
-//! OBJ files: normals that a file gives, and those that it leaves to its reader.
+//! OBJ files: given normals, and those that the reader has to compute.
 
 use std::f32::consts::TAU;
 use std::fmt::Write as _;
@@ -9,7 +9,7 @@ use glam::Vec3;
 use crate::common::*;
 use crate::obj::{SQUARE, read};
 
-/// The side of a cylinder of radius 1 around y, between two caps, in faces that `side` writes from the numbers of four corners.
+/// The side of a cylinder of radius 1 around y, between two caps. `side` writes its faces from the numbers of four corners.
 fn cylinder(sides: usize, smoothing: &str, side: impl Fn([usize; 4]) -> String) -> Loaded {
     let mut text = String::new();
     for i in 0..sides {
@@ -50,7 +50,7 @@ fn smoothing_groups_make_round_what_is_round() {
     let radial = |position: Vec3| Vec3::new(position.x, 0.0, position.z).normalize();
     for sides in [5, 8, 64] {
         for group in ["s 1", "s on", "S 7", "s 4294967296", "s 99999999999999999999"] {
-            // However the sides are cut.
+            // The normals do not depend on the triangulation of the sides.
             assert_normals(&cylinder(sides, group, quad), radial);
             assert_normals(&cylinder(sides, group, triangles), radial);
         }
@@ -69,7 +69,7 @@ fn without_a_group_faces_are_flat() {
 
 #[test]
 fn groups_and_sharp_angles_split() {
-    // Two quads that meet at 45°.
+    // Two quads meet at 45°.
     let bend = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nv 2 1 1\n";
     let [left, right] = ["f 1 2 3 4\n", "f 2 5 6 3\n"];
     let along =
@@ -81,7 +81,7 @@ fn groups_and_sharp_angles_split() {
     let joined = read(format!("{bend}s 1\n{left}{right}"), "").unwrap();
     let middle = (Vec3::Z + Vec3::new(-1.0, 0.0, 1.0).normalize()).normalize();
     assert_normals(&joined, |position| if position.x == 1.0 { middle } else { along(1.5)(position) });
-    // Materials and names do not split.
+    // Materials and names do not split a smoothing group.
     let parted = read(format!("{bend}s 1\no a\n{left}o b\n{right}"), "").unwrap();
     assert_eq!(parted.scene.meshes.len(), 2);
     assert_normals(&parted, |position| if position.x == 1.0 { middle } else { along(1.5)(position) });
@@ -121,19 +121,19 @@ fn normals_that_cannot_be_read() {
         normals.dedup();
         assert_eq!(normals, [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]], "{broken}");
     }
-    // In a smoothing group, the faces around say it.
+    // In a smoothing group, the surrounding faces determine the normal.
     let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 1\nv 2 1 1\nvn 0 0 0\ns 1\n\
                 f 1//1 2//1 3//1 4//1\nf 2//1 5//1 6//1 3//1\n";
     let mesh = &read(text, "").unwrap().scene.meshes[0];
     let middle = (Vec3::Z + Vec3::new(-1.0, 0.0, 1.0).normalize()).normalize();
     assert_close(&mesh.normals[1], &middle.to_array(), 1e-6);
-    // Long ones do not overflow.
+    // Long normals do not overflow.
     let loaded = read(format!("{SQUARE}vn 0 3e38 0\nf 1//1 2//1 3//1\n"), "").unwrap();
     assert_warnings(&loaded, &[]);
     assert_eq!(loaded.scene.meshes[0].normals[0], [0.0, 1.0, 0.0]);
 }
 
-/// A cone of very many sides: each pair of faces at the apex cannot be looked at.
+/// A cone with so many sides that comparing each pair of faces at the apex would take too long.
 #[test]
 fn very_many_faces_at_one_vertex() {
     const SIDES: usize = 200_000;

@@ -1,4 +1,4 @@
-//! Files without a defect, compared with what the `tobj` crate reads of them.
+//! Files without a defect, compared with the results of the `tobj` crate.
 
 use std::io::Cursor;
 
@@ -61,7 +61,7 @@ fn of_tobj(text: &str) -> Vec<Corners> {
     sorted(models.iter().flat_map(of_model).collect())
 }
 
-/// The direction of a vector in steps that hide rounding.
+/// The direction of a vector, in steps that hide rounding.
 fn unit(vector: &[f32]) -> Vec<f32> {
     glam::Vec3::from_slice(vector).normalize().to_array().map(|x| (1024.0 * x).round()).into()
 }

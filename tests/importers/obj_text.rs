@@ -1,4 +1,4 @@
-//! OBJ files: text, numbers, and files that are something else.
+//! OBJ files: text, numbers, and files of other kinds.
 
 use asvgf::scene::load;
 
@@ -35,7 +35,7 @@ fn line_ends_of_all_machines() {
         let material = &loaded.scene.materials[0];
         assert_eq!((&*loaded.scene.meshes[0].name, material.base_color), ("thing", [0.0, 1.0, 0.0, 1.0]));
     }
-    // Lines count as an editor counts them.
+    // Lines are numbered as in an editor.
     assert_warnings(&read(format!("\r\r\n{SQUARE}f 1 2 3\rf 1\r"), "").unwrap(), &[("line 8", "1 corners")]);
 }
 
@@ -46,7 +46,7 @@ fn keywords_in_any_case_and_one_very_long_line() {
     let loaded = read(text, "NEWMTL m\nKD .5 .25 .125\nILLUM 1\n").unwrap();
     assert_warnings(&loaded, &[]);
     assert_eq!((area(&loaded), loaded.scene.materials[0].base_color), (1.0, [0.5, 0.25, 0.125, 1.0]));
-    // A corner that comes again and again is no polygon, and no reason to hang.
+    // A corner that repeats again and again makes no polygon, and must not hang the reader.
     let text = format!("{SQUARE}f{}\nf 1 2 3\n", faces.replace(' ', " \\\n"));
     assert_eq!(read(text, "").unwrap().warnings.len(), 1);
 }
@@ -79,7 +79,7 @@ fn numbers_that_are_wrong() {
         let loaded = read(format!("{SQUARE}{line}\nf 1 2 5\nf 1 2 3 4\n"), "").unwrap();
         assert_warnings(&loaded, &[("line 5", &format!("v: {reason}; faces that use it are left out"))]);
         assert_eq!(area(&loaded), 1.0);
-        // Nothing is left.
+        // No face is left.
         let lost = read(format!("v 0 0 0\nv 1 0 0\n{line}\nf 1 2 3\n"), "");
         assert_error(lost, "test.obj", "line 3", "no face of the file can be drawn");
     };

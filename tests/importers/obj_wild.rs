@@ -1,4 +1,4 @@
-//! OBJ files after what people report to loaders, where they are at hand: `../shared/wild/obj` next to the repository.
+//! OBJ files modelled on reports to loaders, from `../shared/wild/obj` next to the repository if it is at hand.
 
 use asvgf::scene::{Alpha, Loaded, load};
 

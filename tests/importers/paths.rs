@@ -1,11 +1,11 @@
-//! What a scene file may refer to.
+//! Paths that a scene file may refer to.
 
 use asvgf::scene::load;
 use serde_json::json;
 
 use crate::common::*;
 
-/// A folder with a readable file outside of the folder of the scene.
+/// A scene in a folder, with a readable file outside it.
 fn nested() -> (Folder, Gltf) {
     let folder = Folder::new();
     let gltf = Gltf::triangle();
@@ -57,7 +57,7 @@ fn nothing_else_is_read() {
     }
 }
 
-/// Paths of other machines: the end of them that is a file in the folder stands for them.
+/// A path of another machine stands for the file in the folder that matches its longest end.
 #[test]
 fn paths_of_other_machines_are_looked_for_in_the_folder() {
     let (folder, gltf) = nested();

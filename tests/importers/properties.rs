@@ -1,4 +1,4 @@
-//! A valid file in which one optional element is broken at random: the file loads, the rest is drawn, one warning names the element.
+//! A valid file with one optional element broken at random: the file loads, the rest is drawn, one warning names the element.
 
 use asvgf::scene::load;
 use proptest::prelude::*;
@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use crate::common::*;
 
-/// A file of two nodes with one triangle each that has every optional element, and is read without a warning.
+/// A file of two nodes with one triangle each. It has every optional element, and loads without a warning.
 fn whole() -> Gltf {
     let mut gltf = Gltf::textured_triangle();
     let normal = gltf.floats("VEC3", &[0.0, 0.0, 1.0].repeat(3));
@@ -58,7 +58,7 @@ fn whole() -> Gltf {
     gltf
 }
 
-/// Places whose value may be any: what breaks there costs itself.
+/// Places that may get any value: only a broken element itself is lost.
 const OPTIONAL: &[&str] = &[
     "/asset/generator",
     "/scene",
@@ -139,7 +139,7 @@ proptest! {
         value in select(vec![json!({}), json!({"a": 1}), json!([[]]), json!(true), json!(1e300), json!(-1e300)]),
     ) {
         let gltf = break_at(pointer, &value);
-        // Some elements may have some of these values.
+        // Some of these values are valid for some elements.
         let allowed = matches!(
             (pointer, &value),
             ("/materials/0/doubleSided", Value::Bool(_)) | ("/samplers/0/wrapS", Value::Object(_))
@@ -174,7 +174,7 @@ proptest! {
         prop_assert!(loaded.is_ok(), "{pointer}: {}", loaded.unwrap_err());
         let loaded = loaded.unwrap();
         prop_assert_eq!(loaded.scene.triangle_count(), 2, "{}", pointer);
-        // One for the text that is not JSON, and one for the element, unless that may be null.
+        // One warning is for text that is not JSON, and one for the element, unless the element may be null.
         prop_assert!(loaded.warnings.len() <= 2, "{}: {:?}", pointer, loaded.warnings);
     }
 

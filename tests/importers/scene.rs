@@ -1,4 +1,4 @@
-//! The checks and the measures of scenes that are made in code.
+//! Checks and measures of scenes that are made in code.
 
 use asvgf::scene::{
     Alpha, Animation, Channel, Environment, Image, Interpolation, Light, LightKind, Material, Mesh, Node, Perspective,
@@ -50,7 +50,7 @@ fn broken(change: impl FnOnce(&mut Scene), element: &str, reason: &str) {
     let error = scene.validate().expect_err(element);
     assert_eq!(error.file, "scene");
     assert!(error.element.contains(element) && error.reason.contains(reason), "{error}");
-    // Whatever is wrong, measuring and posing do not panic.
+    // Measuring and posing do not panic, whatever is wrong.
     let pose = scene.pose(Some(0), 0.5);
     scene.bounds(&pose);
     scene.surface_area(&pose);

@@ -1,4 +1,4 @@
-//! Kinds of files that a user who meant no good found to be drawn wrongly without a word, or refused for nothing.
+//! Files of kinds that were once drawn wrongly without a warning, or refused for no reason.
 
 use asvgf::image_io;
 use asvgf::scene::{Alpha, Environment, Loaded, load};
@@ -17,14 +17,14 @@ fn obj(text: &str, mtl: &str) -> Loaded {
 
 #[test]
 fn models_in_survey_coordinates_keep_their_shape() {
-    // 0.3 m in UTM metres, where steps of f32 are half a metre.
+    // The square has sides of 0.3 m in UTM coordinates, where steps of f32 are half a metre.
     let text = "v 500000.13 4500000.37 12\nv 500000.43 4500000.37 12\nv 500000.43 4500000.67 12\nv 500000.13 4500000.67 12\nf 1 2 3 4\n";
     let loaded = obj(text, "");
     assert_warnings(&loaded, &[]);
     assert!((area(&loaded) - 0.09).abs() < 1e-5, "{}", area(&loaded));
     let bounds = loaded.scene.bounds(&loaded.scene.pose(None, 0.0)).unwrap();
     assert!((bounds[0][0] - 500_000.13).abs() < 1e-4 && (bounds[1][1] - 4_500_000.67).abs() < 1e-4, "{bounds:?}");
-    // Nearer than that, positions are those of the file.
+    // Nearer to the origin, positions are the file's own.
     assert_eq!(obj(&format!("{SQUARE}f 1 2 3 4\n"), "").scene.meshes[0].positions[2], [1.0, 1.0, 0.0]);
 }
 
@@ -71,7 +71,7 @@ fn one_missing_file_is_one_warning() {
     assert_warnings(&obj(&text, materials), &[("test.mtl material \"a\"", "no.png")]);
 }
 
-/// A textured triangle with this material.
+/// Loads a textured triangle with this material.
 fn textured(texel: [u8; 4], material: serde_json::Value) -> Loaded {
     let mut gltf = Gltf::textured_triangle();
     let view = gltf.view(&png(1, 1, texel));
@@ -88,14 +88,14 @@ fn glass_heeds_its_textures() {
         assert_warnings(loaded, &[("KHR_materials_transmission", "thin pane")]);
         loaded.scene.materials[0].clone()
     };
-    // The metallic factor is 1 where it is absent; the texture says 0.
+    // The metallic factor is 1 if it is absent; the texture says 0.
     let dielectric = json!({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}}, "extensions": glass});
     assert_close(&[pane(&textured([0, 255, 0, 255], dielectric)).base_color[3]], &[0.04], 1e-6);
     // Black glass lets nothing through.
     let black =
         json!({"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": 0}}, "extensions": glass});
     assert_close(&[pane(&textured([0, 0, 0, 255], black.clone())).base_color[3]], &[1.0], 1e-6);
-    // The opacity of an opaque material's texture means nothing.
+    // The texture's opacity has no meaning for an opaque material.
     let loaded = textured([255, 255, 255, 0], black);
     let texture = pane(&loaded).base_color_texture.unwrap();
     assert_eq!(loaded.scene.images[texture.image].texels, [[255; 4]]);
@@ -126,7 +126,7 @@ fn views_that_are_rounded_up_and_replacements_in_any_order() {
     });
     let loaded = gltf.load().unwrap();
     assert_warnings(&loaded, &[]);
-    // Of two values for one element the last counts.
+    // If one element has two values, the last one counts.
     assert_eq!(loaded.scene.meshes[0].positions, [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 3.0, 0.0]]);
 }
 
@@ -154,7 +154,7 @@ fn glb_files_with_odd_lengths_and_versions_with_odd_names() {
 
 #[test]
 fn what_costs_a_file_nothing_takes_no_memory() {
-    // Elements without data, for a hundred nodes that place a million instances each, and for primitives of 16 million vertices.
+    // Elements without data: a hundred nodes that place a million instances each, and primitives of 16 million vertices.
     let mut gltf = Gltf::triangle();
     let zeros = gltf.push("accessors", json!({"componentType": F32, "type": "VEC3", "count": 1 << 20}));
     let extension = json!({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": zeros}}});
@@ -185,7 +185,7 @@ fn environments_that_announce_too_much_or_are_of_another_shape() {
     assert!(cube.reason.contains("cube map"), "{cube}");
     let (_, warnings) = Environment::load(write("probe.exr", (32, 32), (32, 32), false)).unwrap();
     assert!(warnings[1].reason.contains("light probe"), "{warnings:?}");
-    // One infinite channel, whatever the primaries.
+    // One channel is infinite, in any primaries.
     let image = image_io::Channels {
         width: 1,
         height: 1,

@@ -1,4 +1,4 @@
-//! glTF files and environments after what people report to loaders, where they are at hand: `../shared/wild` next to the repository.
+//! glTF files and environments modelled on reports to loaders, from `../shared/wild` next to the repository if it is at hand.
 
 use asvgf::scene::{Alpha, Environment, Loaded, load};
 
@@ -84,7 +84,7 @@ fn environments_in_the_wild() {
         let [first, last] = [environment.radiance[0], *environment.radiance.last().unwrap()];
         assert_close(&[first, last].concat(), &corners.concat(), 1e-3);
     }
-    // Colours of ACES are beyond those of Rec. 709: converted, and what is negative then is 0, with a warning.
+    // Colours of ACES exceed those of Rec. 709. They are converted, and negative values become 0 with a warning.
     let (environment, said) = Environment::load(folder.join("ap0.exr")).unwrap();
     assert_eq!(said.len(), 1);
     assert!(environment.radiance[0][0] > 9.0, "{:?}", environment.radiance[0]);

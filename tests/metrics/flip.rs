@@ -1,4 +1,4 @@
-//! FLIP of the images in images/, against the numbers that images/recipe.py prints: from NVIDIA's flip-evaluator 1.7.
+//! FLIP of the images in images/, against the numbers from NVIDIA's flip-evaluator 1.7 that images/recipe.py prints.
 
 use crate::perception::image;
 use crate::{assert_near, grey};

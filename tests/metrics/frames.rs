@@ -1,4 +1,4 @@
-//! Errors pixel by pixel.
+//! Errors measured pixel by pixel.
 
 use crate::{assert_near, grey};
 use asvgf::metrics::{EPSILON, Pair, bias, psnr, relative_mse, rmse};

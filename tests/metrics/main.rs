@@ -1,4 +1,4 @@
-//! Metrics against known answers: an image and itself, constant offsets, known noise, and what other programs say.
+//! Metrics against known answers: an image against itself, constant offsets, known noise, and results of other programs.
 #![cfg(all(feature = "metrics", feature = "image"))]
 
 #[cfg(feature = "flip")]
@@ -8,7 +8,7 @@ mod perception;
 mod refusals;
 mod sequences;
 
-/// Asserts that two numbers differ by no more than is allowed.
+/// Asserts that two numbers differ by no more than `allowed`.
 #[track_caller]
 fn assert_near(found: f64, expected: f64, allowed: f64) {
     assert!((found - expected).abs() <= allowed, "{found}, not {expected} ± {allowed}");

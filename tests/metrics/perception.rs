@@ -1,11 +1,11 @@
-//! SSIM of the images in images/, against the numbers that images/recipe.py prints: from scikit-image 0.26.0.
+//! SSIM of the images in images/, against the numbers from scikit-image 0.26.0 that images/recipe.py prints.
 
 use crate::assert_near;
 use asvgf::image_io::read_png;
 use asvgf::metrics::{Pair, encode, ssim};
 use std::path::Path;
 
-/// An image as displays show it, and its size.
+/// An image encoded for displays, and its size.
 pub fn image(name: &str) -> (Vec<[f32; 3]>, [u32; 2]) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/metrics/images");
     let (width, height, pixels) = read_png(folder.join(name)).unwrap();

@@ -1,4 +1,4 @@
-//! Arguments that do not belong together are refused by name.
+//! Arguments that do not fit each other are refused by name.
 
 use crate::grey;
 use asvgf::metrics::{MetricError, Pair, ages, flicker, ghost_energy, lag, origins, ssim};

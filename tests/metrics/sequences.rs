@@ -5,7 +5,7 @@ use asvgf::metrics::{Lag, Pair, ages, flicker, ghost_energy, lag, origins};
 
 #[test]
 fn motion_leads_to_where_a_surface_was() {
-    // One step from the left; from outside; nowhere; at rest.
+    // Motion one step from the left, from outside, from nowhere, and at rest.
     let motion = [[0.0, 0.0], [-1.0, 0.0], [5.0, 0.0], [f32::NAN, 0.0], [0.0, -1.0], [0.0, 0.0]];
     let found = origins([3, 2], &motion, |pixel, _| pixel != 5).unwrap();
     assert_eq!(found, [Some(0), Some(0), None, None, Some(1), None]);
@@ -63,7 +63,7 @@ fn a_moving_average_lags_as_it_must() {
             old.iter().zip(&new).map(|(o, n)| [0, 1, 2].map(|c| left * o[c] + (1.0 - left) * n[c])).collect()
         };
         let frames: Vec<_> = (0..100).map(frame).collect();
-        // The third pixel takes no step.
+        // The third pixel has no step to follow.
         let arrived = |frame| Lag { frames: vec![frame; 2], never: 0 };
         assert_eq!(lag(&old, &new, &frames, 0.1, 0.25).unwrap(), arrived(tenth));
         assert_eq!(lag(&old, &new, &frames, 0.02, 0.25).unwrap(), arrived(fiftieth));
@@ -80,7 +80,7 @@ fn quantiles_of_lag() {
     assert_eq!(Lag::default().quantile(0.5), None);
 }
 
-/// What leaves the band again has not settled.
+/// A pixel that leaves the band again has not settled.
 #[test]
 fn settled_means_for_good() {
     let frames = [1.0, 0.05, 0.5, 0.05, 0.0].map(|x| grey(&[x]));

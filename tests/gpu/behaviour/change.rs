@@ -24,12 +24,12 @@ fn levels(scene: &str) -> [f64; 2] {
     })
 }
 
-/// How an image follows the lamp, out and on.
+/// The speed at which an image follows the lamp, out and on.
 #[derive(Debug)]
 struct Followed {
-    /// Frames until the image's mean is within 10 % of the truth; `None`: not while the lamp stays so.
+    /// Frames until the image's mean is within 10 % of the truth. `None` if the lamp changes before that.
     frames: [Option<u32>; 2],
-    /// What is left of the step after three frames, 0…1.
+    /// The part of the step that is left after three frames, 0…1.
     left: [f64; 2],
 }
 
@@ -65,7 +65,7 @@ fn a_blinking_lamp_is_followed_within_three_frames() {
             assert!(followed.is_some_and(|n| n <= 3), "{scene}: {adaptive:?}");
         }
         assert!(adaptive.left.iter().all(|&left| left <= 0.03), "{scene}: {adaptive:?}");
-        // What the gradient is for: a constant α leaves several times as much.
+        // The purpose of the gradient: a constant α leaves several times as much.
         let slower = |i: usize| constant.left[i] >= 5.0 * adaptive.left[i];
         assert!(slower(0) && slower(1), "{scene}: {adaptive:?}, constant {constant:?}");
     }

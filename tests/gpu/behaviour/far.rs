@@ -1,4 +1,4 @@
-//! A scene looks the same wherever it stands: its coordinates count from a centre of its own.
+//! A scene looks the same wherever it stands, because its coordinates count from a centre of its own.
 
 use crate::common::scenes::{before_corner, corner, emitter, lambert, quad, scene, shine};
 use crate::common::stage::Stage;
@@ -20,16 +20,16 @@ const PLACES: [[f64; 3]; 6] = [
     [-524_288.0, 524_288.0, 0.0],
 ];
 
-/// How a scene gets to its place.
+/// The way in which a scene gets to its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Placed {
-    /// By its vertices.
+    /// Its vertices are there.
     Vertices,
-    /// By nodes that stay.
+    /// Nodes that never move put it there.
     Nodes,
-    /// By nodes that a host may move.
+    /// Nodes that a host may move put it there.
     Movable,
-    /// By vertices of meshes that a host may move.
+    /// The vertices of meshes that a host may move are there.
     MovableVertices,
 }
 
@@ -75,7 +75,7 @@ fn settings() -> Settings {
     Settings { tracer, ..Settings::adaptive() }
 }
 
-/// The images of some frames, seen from where the corner is.
+/// The images of some frames, seen from the corner's place.
 fn images(scene: Scene, place: [f64; 3]) -> Vec<Vec<Rgb>> {
     let mut stage = Stage::new(scene, SIZE, settings());
     (0..3)
@@ -152,7 +152,7 @@ fn what_moves_far_away_moves_as_near() {
             let (pixels, mean) = compare(&stage.frame().image(), &image);
             assert!(pixels <= 8 && mean < 2e-4, "{what}: {pixels} pixels, {mean:.1e}");
             let far = [View::Motion, View::HistoryLength].map(|view| stage.view(view));
-            // But for rays that meet another side of an edge.
+            // The images agree, except for rays that meet another side of an edge.
             let differ = |a: &[Rgb], b: &[Rgb], by: f32| {
                 a.iter().zip(b).filter(|(a, b)| (0..2).any(|c| (a[c] - b[c]).abs() > by)).count()
             };
@@ -162,7 +162,7 @@ fn what_moves_far_away_moves_as_near() {
     }
 }
 
-/// A host that has only f32 for its camera gets the image of that camera.
+/// A camera in f32 gives the image of exactly that camera.
 #[test]
 fn a_camera_in_f32_is_taken_for_what_it_says() {
     let place = [524_288.0, 0.0, -524_288.0];

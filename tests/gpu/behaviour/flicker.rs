@@ -1,4 +1,4 @@
-//! What shimmers in an image that should rest.
+//! Flicker in an image that should rest.
 
 use crate::common::stage::Stage;
 use crate::common::statistics::{Rgb, mean, relative_mse};
@@ -10,7 +10,7 @@ fn with(steadiness: f32) -> Settings {
     Settings { filter: FilterSettings { steadiness, ..Default::default() }, ..Settings::adaptive() }
 }
 
-/// Mean difference of two images in a row over their mean, and the error of the last.
+/// Mean difference of two successive images over their mean, and the last image.
 fn followed(scene: &str, settings: Settings, frames: u32) -> (f64, Vec<Rgb>) {
     let mut stage = Stage::built_in(scene, "static", SIZE, settings).leaving_nothing_out();
     let mut last = stage.frame().image();
@@ -35,7 +35,7 @@ fn a_still_image_shimmers_half_as_much_and_is_as_near_to_the_truth() {
     assert!(after < 1.1 * before, "relMSE {after}, without {before}");
 }
 
-/// Nothing but how bright a sample may be: the last output is a level that outliers are measured by.
+/// The last output enters the history in one way only: as a level that outliers are measured against.
 #[test]
 fn nothing_of_the_output_enters_the_history() {
     let histories = [0.0, 0.9].map(|steadiness| {

@@ -1,4 +1,4 @@
-//! What a frame leaves out is not missed.
+//! The parts that a frame leaves out are not missed.
 
 use crate::common::gpu::gpu;
 use crate::common::stage::Stage;
@@ -9,7 +9,7 @@ use wgpu::TextureFormat;
 
 const SIZE: [u32; 2] = [48, 27];
 
-/// Passes of the last frame.
+/// Names of the last frame's passes.
 fn passes(stage: &Stage) -> Vec<&'static str> {
     stage.denoiser.plan().unwrap().steps.iter().map(|step| step.pass.name()).collect()
 }
@@ -18,7 +18,7 @@ fn constant() -> Settings {
     Settings { filter: FilterSettings { gradient: Gradient::Off, ..Default::default() }, ..Settings::adaptive() }
 }
 
-/// Asserts that histories are so long. They are counted at random beyond 32, a pixel's with an error of n/√32 at worst.
+/// Asserts that histories have this length. Beyond 32 they are counted at random, with an error of n/√32 per pixel at worst.
 fn assert_counted(stage: &mut Stage, frames: u32) {
     let lengths: Vec<f64> =
         stage.view(View::HistoryLength).iter().map(|n| f64::from(n[0])).filter(|&n| n > 0.0).collect();
@@ -46,7 +46,7 @@ fn a_still_image_converges_like_the_mean_of_its_frames() {
     let slope = (mean[1] / mean[0]).ln() / 16.0_f64.ln();
     println!("error of the mean {mean:.5?} after 64 and 1024 frames: slope {slope:.3}");
     assert!((-0.55..=-0.45).contains(&slope), "{slope}");
-    // In space, what is left of the noise is filtered, and what has none is left alone.
+    // In space, remaining noise is filtered, and a pixel without noise is left alone.
     let filtered = errors(FilterSettings::default().iterations);
     println!("filtered {filtered:.5?}");
     assert!(filtered[0] < 0.75 * mean[0] && filtered[1] < mean[1]);
@@ -92,7 +92,7 @@ fn a_history_that_grew_while_nothing_moved_is_cut_when_something_does() {
 
 #[test]
 fn without_reprojection_a_still_history_is_the_same() {
-    // A constant α, so that the same samples go into both.
+    // α is constant, so that the same samples go into both.
     let mut spared = Stage::built_in("pillars", "static", SIZE, constant());
     let mut reprojected = Stage::built_in("pillars", "static", SIZE, constant()).leaving_nothing_out();
     for _ in 0..8 {
@@ -102,7 +102,7 @@ fn without_reprojection_a_still_history_is_the_same() {
     assert!(spared.denoiser.plan().unwrap().features.has(asvgf::plan::Feature::Still));
     let difference = relative_mse(&spared.image(), &reprojected.image());
     println!("relative squared difference {difference:.1e}");
-    // Two levels of trees instead of one round rays' hits otherwise: one in ten thousand of the paths goes elsewhere.
+    // Two levels of trees instead of one round rays' hits differently: one path in ten thousand goes elsewhere.
     assert!(difference < 1e-5);
 }
 
@@ -131,7 +131,7 @@ fn what_was_prepared_is_all_that_frames_need_and_is_shared() {
     let pipelines = Some(first.denoiser.pipelines().clone());
     let descriptor = DenoiserDescriptor { size: SIZE, pipelines, views: true, ..Default::default() };
     let second = Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap();
-    // Still, with a light that goes out, and seen from elsewhere.
+    // Three cases: a still scene, a light that goes out, and a view from elsewhere.
     first.frames(32);
     first.denoiser = second;
     first.index = 28;

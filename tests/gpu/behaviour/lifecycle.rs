@@ -8,7 +8,7 @@ fn still(size: [u32; 2]) -> Stage {
     Stage::built_in("cornell", "static", size, Settings::adaptive())
 }
 
-/// The first frames of a denoiser that begins with this one.
+/// The first frames of a denoiser that starts at frame `first`.
 fn fresh(size: [u32; 2], settings: Settings, first: u32) -> Vec<Vec<[f32; 3]>> {
     let mut stage = Stage::built_in("cornell", "static", size, settings);
     stage.index = first;
@@ -92,7 +92,7 @@ fn the_gradient_may_be_changed_at_any_time() {
 fn another_scene_begins_anew() {
     let mut stage = still([31, 17]);
     stage.frames(6);
-    // A copy, so that nothing but the history's length tells.
+    // The other scene is an exact copy, so that only the history's length can tell.
     let gpu = stage.gpu;
     stage.uploaded = GpuScene::new(&gpu.device, &gpu.queue, &builtin::scene("cornell", "static").unwrap()).unwrap();
     assert_eq!(next(&mut stage), fresh([31, 17], Settings::adaptive(), 6));

@@ -1,4 +1,4 @@
-//! What happens over frames.
+//! Behaviour over several frames.
 
 mod change;
 mod far;

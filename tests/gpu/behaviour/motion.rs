@@ -8,7 +8,7 @@ use asvgf::{Camera, Settings, View};
 
 const SIZE: [u32; 2] = [48, 32];
 
-/// A card that can be moved in front of a wall that cannot.
+/// A movable card in front of a fixed wall.
 fn card_and_wall() -> Scene {
     let card = quad([-0.5, -0.5, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0);
     let wall = quad([-4.0, -4.0, -2.0], [8.0, 0.0, 0.0], [0.0, 8.0, 0.0], 0);
@@ -17,7 +17,7 @@ fn card_and_wall() -> Scene {
     scene
 }
 
-/// The card's placement at a frame: it drifts, comes nearer, turns and grows.
+/// The card's placement in a frame: it drifts, comes nearer, turns and grows.
 fn placement(frame: u32) -> Transform {
     let t = frame as f32;
     let angle = 0.1 * t;
@@ -40,7 +40,7 @@ fn camera(frame: u32) -> Camera {
     }
 }
 
-/// A parallelogram in the world.
+/// A parallelogram in world space.
 struct Card {
     corner: V,
     u: V,
@@ -54,7 +54,7 @@ impl Card {
         Self { corner: add(vector(corner), m[3]), u: vector(u), v: vector(v) }
     }
 
-    /// Depth and the coordinates along u and v of what a ray meets of its plane.
+    /// Depth at which a ray meets the plane, and the coordinates of that point along u and v.
     fn meet(&self, eye: V, ray: V) -> [f64; 3] {
         let n = cross(self.u, self.v);
         let depth = dot(n, sub(self.corner, eye)) / dot(n, ray);
@@ -95,7 +95,7 @@ fn motion_is_where_the_same_point_of_the_surface_was() {
             let y = (i as u32 / SIZE[0]) as f64 + 0.5 + jitter[1];
             let ray = now.ray(x, y);
             let hits: Vec<[f64; 3]> = cards[1].0.iter().map(|c| c.meet(now.eye, ray)).collect();
-            // On the card, unless so near to its edge that rounding decides.
+            // The point is on the card, or so near to its edge that rounding decides.
             let inside = hits[0][1..].iter().all(|w| (1e-4..=1.0 - 1e-4).contains(w));
             let outside = hits[0][1..].iter().any(|w| !(-1e-4..=1.0 + 1e-4).contains(w));
             assert!(inside || outside, "no pixel of this test meets the edge");
@@ -103,8 +103,8 @@ fn motion_is_where_the_same_point_of_the_surface_was() {
             let [z, s, t] = hits[which];
             let was = before.project(cards[0].0[which].at(s, t));
             let expected = [was[0] - x, was[1] - y, was[2]];
-            // Kept in steps of 1/256 pixel and 2⁻¹⁴ of the depth, halves of which are what rounding changes. Beside that, f32 keeps
-            // 24 bits of image coordinates below 64 and of depths below 8; some ten operations.
+            // Motion is stored in steps of 1/256 pixel and depth in steps of 2⁻¹⁴ of itself; rounding changes both by half a step.
+            // On top of that, f32 keeps 24 bits of image coordinates below 64 and of depths below 8, over some ten operations.
             let rounding = [1.0 / 512.0, 1.0 / 512.0, expected[2] * 2.0_f64.powi(-15)];
             for ((actual, expected), rounding) in m.iter().map(|&a| f64::from(a)).zip(expected).zip(rounding) {
                 let error = (actual - expected).abs();

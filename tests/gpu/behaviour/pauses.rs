@@ -1,4 +1,4 @@
-//! What moved follows from what a denoiser rendered last: when a scene is updated, how often and for whom makes no difference.
+//! Motion follows from the frame that a denoiser rendered last: the time, number and purpose of scene updates make no difference.
 
 use crate::common::stage::Stage;
 use crate::common::statistics::{Rgb, relative_mse};
@@ -21,7 +21,7 @@ fn moving(settings: Settings) -> Stage {
     stage
 }
 
-/// Renders the next frame of the scene as it was last updated.
+/// Renders the next frame of the scene as of its last update.
 fn render(stage: &mut Stage, pose: &Pose) -> Vec<Rgb> {
     let frame =
         Frame { scene: &stage.uploaded, camera: stage.camera_in(pose), index: stage.index, target: &stage.target };
@@ -31,7 +31,7 @@ fn render(stage: &mut Stage, pose: &Pose) -> Vec<Rgb> {
     stage.image()
 }
 
-/// Updates a stage's scene to poses, and renders nothing.
+/// Updates a stage's scene to poses without rendering.
 fn update(stage: &mut Stage, poses: &[&Pose]) {
     let gpu = stage.gpu;
     gpu.submit(|encoder| poses.iter().for_each(|pose| stage.uploaded.update(&gpu.device, encoder, pose).unwrap()));
@@ -74,7 +74,7 @@ fn what_moves_at_half_the_frame_rate_rests_in_between() {
 #[test]
 fn each_of_several_denoisers_sees_its_own_motion() {
     for settings in settings() {
-        // One sees every pose of a scene, another every second one; and the same of a scene of its own.
+        // One denoiser sees every pose of a scene, another every second pose. Two more do the same with scenes of their own.
         let (mut every, mut every_alone) = (moving(settings.clone()), moving(settings.clone()));
         let mut second_alone = Stage::built_in("cornell", "all", SIZE, settings.clone());
         let mut second = Stage::built_in("cornell", "all", SIZE, settings).denoiser;
@@ -108,7 +108,7 @@ fn a_mean_over_frames_goes_on_in_a_scene_that_has_moved() {
     for frame in 0..8 {
         assert!(render(&mut moved, &pose) == render(&mut rested, &pose), "frame {frame}");
     }
-    // And it is a mean: an eighth of the variance of one frame.
+    // The result is a mean, with an eighth of the variance of one frame.
     let mut noisy = Stage::built_in("cornell", "all", SIZE, Settings { mode: Mode::Noisy, ..Settings::adaptive() });
     noisy.index = 1000;
     update(&mut noisy, &[&pose]);

@@ -1,4 +1,4 @@
-//! How frames are recorded makes no difference.
+//! The way of recording frames makes no difference.
 
 use crate::common::gpu::{Gpu, gpu};
 use crate::common::stage::Stage;
@@ -49,7 +49,7 @@ fn denoisers_may_share_an_encoder_and_a_scene() {
 
 #[test]
 fn a_device_that_is_strict_about_webgpu_suffices() {
-    // Leaked, as the shared device is: tests end with the process.
+    // The device is leaked, like the shared one: tests end with the process.
     let strict: &'static Gpu = Box::leak(Box::new(Gpu::new(InstanceFlags::STRICT_WEBGPU_COMPLIANCE)));
     let scene = || builtin::scene("cornell", "all").unwrap();
     let mut there = Stage::on(strict, scene(), SIZE, Settings::adaptive());

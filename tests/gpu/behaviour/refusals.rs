@@ -1,4 +1,4 @@
-//! What cannot be done is refused by name, and costs no history.
+//! Impossible requests are refused by name, and cost no history.
 
 use crate::common::gpu::{Gpu, gpu};
 use crate::common::stage::Stage;
@@ -10,7 +10,7 @@ use wgpu::{Features, Instance, InstanceDescriptor, TextureFormat, TextureUsages,
 
 const SIZE: [u32; 2] = [24, 16];
 
-/// A denoiser that is asked for the impossible, and one that is not.
+/// Two denoisers: one gets impossible requests, the other does not.
 struct Pair {
     tried: Stage,
     control: Stage,
@@ -26,7 +26,7 @@ impl Pair {
         Self { tried, control }
     }
 
-    /// Renders into a target that is refused; returns the error.
+    /// Renders into a target that is refused. Returns the error.
     fn refused(&mut self, target: TextureView, camera: Option<Camera>) -> Error {
         let target = std::mem::replace(&mut self.tried.target, target);
         let camera = std::mem::replace(&mut self.tried.camera, camera);
@@ -36,7 +36,7 @@ impl Pair {
         error
     }
 
-    /// The next frame is the same to the last bit as if nothing had been tried.
+    /// Asserts that the next frame is the same to the last bit as without the refused request.
     fn assert_unharmed(&mut self, after: &Error) {
         assert_eq!(self.tried.frame().image(), self.control.frame().image(), "after: {after}");
     }
@@ -158,7 +158,7 @@ fn a_view_of_what_was_not_made() {
     };
     let mut stage = Stage::built_in("cornell", "static", SIZE, Settings::adaptive());
     expect(&mut stage, View::ALL);
-    // Nothing moves or repeats, so that objects are not told apart; nothing changes, so that no path is repeated; nothing is summed.
+    // Nothing moves or repeats, so objects are not told apart. Nothing changes, so no path is repeated. Nothing is summed.
     expect(stage.frames(2), &[View::Object, View::PairNow, View::PairBefore, View::Mean]);
     let everything = Stage::built_in("cornell", "static", SIZE, Settings::adaptive()).leaving_nothing_out();
     expect({ everything }.frames(2), &[View::Object, View::Mean]);

@@ -10,7 +10,7 @@ fn with_gradient(gradient: Gradient) -> Settings {
     Settings { filter: FilterSettings { gradient, ..Default::default() }, ..Settings::adaptive() }
 }
 
-/// Asserts over 100 frames that nothing is taken for a change.
+/// Asserts over 100 frames that the filter sees no change.
 fn assert_no_gradient(scene: &str, settings: Settings) {
     let gradient = settings.filter.gradient;
     let mut stage = Stage::built_in(scene, "static", [48, 27], settings).leaving_nothing_out();
@@ -21,8 +21,8 @@ fn assert_no_gradient(scene: &str, settings: Settings) {
             assert_eq!(stage.largest(View::Gradient), 0.0, "{scene}, {gradient:?}, frame {frame}: gradient");
         }
     }
-    // There was something to compare: histories are worth what their limit, 64, or the least α allows, (2 − α)/α, wherever
-    // something was hit (pixels that repeat a path add nothing to theirs, in 1 of 9 frames).
+    // The comparison was real: wherever something was hit, histories are as long as their limit of 64 allows or as the least α does,
+    // (2 − α)/α. (Pixels that repeat a path add nothing to theirs, in 1 of 9 frames.)
     let worth = (2.0 / stage.denoiser.settings().filter.alpha - 1.0).min(64.0);
     let longest = stage.largest(View::HistoryLength);
     assert!((0.93 * worth..=1.01 * worth).contains(&longest), "{scene}: history of {longest}, not {worth}");
@@ -60,7 +60,7 @@ fn what_stands_still_has_no_motion() {
             let motion = stage.frame().view(View::Motion);
             assert!(motion.iter().all(|m| m[0] == 0.0 && m[1] == 0.0), "{scene}, {animation}");
         }
-        // Kept with 14 bits of mantissa.
+        // Radiance is stored with 14 bits of mantissa.
         let rounded = |now: f32, before: f32| (before - now).abs() <= now * 2.0_f32.powi(-15);
         assert!(
             stage.view(View::Motion).iter().zip(stage.view(View::Depth)).all(|(m, d)| rounded(d[0], m[2])),
@@ -69,7 +69,7 @@ fn what_stands_still_has_no_motion() {
     }
 }
 
-/// Mean brightness over 64 frames, of which each is one sample per pixel.
+/// Mean brightness over 64 frames of one sample per pixel.
 fn mean_of_64(settings: Settings) -> f64 {
     let mut stage = Stage::built_in("cornell", "static", SIZE, settings);
     (0..64).map(|_| mean(&stage.frame().image())).sum::<f64>() / 64.0

@@ -21,7 +21,7 @@ fn the_denoised_view_is_the_target() {
 
 #[test]
 fn the_noisy_view_is_what_noisy_mode_shows() {
-    // Without a gradient all pixels take paths of their own, as in noisy mode.
+    // Without a gradient, all pixels take paths of their own, as in noisy mode.
     let settings = Settings::adaptive().constant(0.1);
     let mut filtered = Stage::built_in("cornell", "all", SIZE, settings);
     let mut noisy = Stage::built_in("cornell", "all", SIZE, Settings { mode: Mode::Noisy, ..Settings::adaptive() });
@@ -53,7 +53,7 @@ fn numbers_are_within_their_documented_ranges() {
     check(View::TriangleId, &|id, hit| id[2] == f32::from(u8::from(hit)) && (!hit || id[0] < 48.0 && id[1] == 0.0));
     check(View::Gradient, &|g, _| unit(g[0]));
     check(View::Lambda, &|l, hit| unit(l[0]) && (hit || l[0] == 0.0));
-    // It is λ where a path is repeated, as that is no new sample, and so may be 0.
+    // α is λ where a path is repeated, because that is no new sample, and so it may be 0.
     check(View::Alpha, &|a, hit| unit(a[0]) && (hit || a[0] == 0.0));
     check(View::HistoryLength, &|n, hit| if hit { (1.0..=5.0).contains(&n[0]) } else { n[0] == 0.0 });
     check(View::Variance, &|v, _| v[0] >= 0.0 && v[0].is_finite());
@@ -70,7 +70,7 @@ fn the_gradients_pairs_are_in_the_pixels_of_their_paths() {
     for (i, pair) in now.iter().zip(&before).enumerate().filter(|(_, (now, _))| now[0] >= 0.0) {
         let (x, y) = (i as u32 % SIZE[0], i as u32 / SIZE[0]);
         found[(y / 3 * SIZE[0].div_ceil(3) + x / 3) as usize] += 1;
-        // The pixel repeats the path, and nothing changed.
+        // The pixel repeats the path, and nothing has changed.
         assert_eq!(pair.0, pair.1, "pixel {i}");
         for c in 0..3 {
             let reflected = noisy[i][c] - emission[i][c];
@@ -95,7 +95,7 @@ fn every_view_has_a_picture_with_something_in_it() {
         let texels = gpu().read(target.texture());
         assert!(texels.chunks_exact(4).all(|t| t[3] == 255), "{view:?} is opaque");
         let varied = texels.chunks_exact(4).any(|t| t != &texels[..4]);
-        // Nothing is wrong with these frames.
+        // These frames have no faults, so these two views are black.
         let wrong = matches!(view, View::NonFinite | View::Outliers);
         assert_eq!(varied, !wrong, "{view:?}");
     }

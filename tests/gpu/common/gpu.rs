@@ -1,4 +1,4 @@
-//! One device for all tests of a binary: the least that every WebGPU device offers, so that nothing more is used unnoticed.
+//! One device for all tests of a binary. It offers the minimum of every WebGPU device, so that tests notice any demand for more.
 
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -14,7 +14,7 @@ pub struct Gpu {
     pub queue: Queue,
 }
 
-/// No test needs this long; one that hangs shall fail.
+/// Time limit for the GPU, so that a hang fails the test.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 const NO_ADAPTER: &str = "no GPU that wgpu can use was found, and these tests run shaders. Install a driver, or a software \
@@ -28,18 +28,18 @@ pub fn gpu() -> &'static Gpu {
 }
 
 impl Gpu {
-    /// A device of its own.
+    /// Makes a separate device.
     pub fn new(flags: InstanceFlags) -> Self {
         Self::with(flags, Features::empty()).expect("every adapter offers no features")
     }
 
-    /// A device of its own with more than the least, where the adapter has it.
+    /// Makes a separate device with more than the minimum, if the adapter has it.
     pub fn with(flags: InstanceFlags, features: Features) -> Option<Self> {
         let descriptor = InstanceDescriptor { flags, ..InstanceDescriptor::new_without_display_handle_from_env() };
         Self::of(&Instance::new(descriptor), features)
     }
 
-    /// The same of an instance that is there.
+    /// Makes a separate device from an existing instance.
     pub fn of(instance: &Instance, features: Features) -> Option<Self> {
         let adapter = match pollster::block_on(instance.request_adapter(&Default::default())) {
             Ok(adapter) => adapter,
@@ -58,7 +58,7 @@ impl Gpu {
         Some(Self { device, queue })
     }
 
-    /// Records and submits.
+    /// Records commands and submits them.
     pub fn submit<T>(&self, record: impl FnOnce(&mut CommandEncoder) -> T) -> T {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         let result = record(&mut encoder);
@@ -66,18 +66,18 @@ impl Gpu {
         result
     }
 
-    /// A texture with these usages.
+    /// Makes a texture with these usages.
     pub fn texture(&self, size: [u32; 2], format: TextureFormat, usage: TextureUsages) -> Texture {
         texture(&self.device, size, format, usage)
     }
 
-    /// A texture that a shader writes and [`Gpu::read`] reads.
+    /// Makes a texture that a shader writes and [`Gpu::read`] reads.
     pub fn target(&self, size: [u32; 2], format: TextureFormat) -> TextureView {
         self.texture(size, format, TextureUsages::STORAGE_BINDING | TextureUsages::COPY_SRC)
             .create_view(&Default::default())
     }
 
-    /// The bytes of a texture, row by row without padding.
+    /// Reads the bytes of a texture, row by row without padding.
     pub fn read(&self, texture: &Texture) -> Vec<u8> {
         let row = texture.width() * texture.format().block_copy_size(None).expect("a format of one plane");
         let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -91,27 +91,27 @@ impl Gpu {
         bytes.chunks(padded as usize).flat_map(|r| &r[..row as usize]).copied().collect()
     }
 
-    /// A buffer to copy results into.
+    /// Makes a buffer to copy results into.
     pub fn readable(&self, size: u64) -> wgpu::Buffer {
         let usage = BufferUsages::COPY_DST | BufferUsages::MAP_READ;
         self.device.create_buffer(&BufferDescriptor { label: Some("readback"), size, usage, mapped_at_creation: false })
     }
 
-    /// Waits, and returns what a readable buffer holds.
+    /// Waits, and returns the content of a readable buffer.
     pub fn map(&self, buffer: &wgpu::Buffer) -> Vec<u8> {
         buffer.map_async(MapMode::Read, .., |result| result.expect("a readable buffer"));
         self.wait();
         buffer.get_mapped_range(..).expect("mapped").to_vec()
     }
 
-    /// Waits until all that was submitted is done.
+    /// Waits until all submitted work is done.
     pub fn wait(&self) {
         let poll = PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
         self.device.poll(poll).expect("the GPU answers in time");
     }
 }
 
-/// A texture of any device, with these usages.
+/// Makes a texture on any device, with these usages.
 pub fn texture(device: &Device, size: [u32; 2], format: TextureFormat, usage: TextureUsages) -> Texture {
     device.create_texture(&TextureDescriptor {
         label: Some("test"),

@@ -1,4 +1,4 @@
-//! What the GPU tests share.
+//! Helpers that the GPU tests share.
 
 pub mod gpu;
 pub mod images;

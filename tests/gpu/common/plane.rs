@@ -1,4 +1,4 @@
-//! A camera and planes in f64: the independent side of what the image should show.
+//! A camera and planes in f64: an independent computation of the expected image.
 
 use asvgf::Camera;
 
@@ -32,7 +32,7 @@ pub fn unit(a: V) -> V {
     scale(a, 1.0 / length(a))
 }
 
-/// A pinhole camera by angles: pixel (x, y) of an image of `size` is seen at tan-space coordinates of the half height.
+/// A pinhole camera by angles: pixel (x, y) of an image of `size` has tan-space coordinates in units of the half height.
 pub struct Pinhole {
     pub eye: V,
     right: V,

@@ -1,4 +1,4 @@
-//! Small scenes by hand.
+//! Small scenes made by hand.
 
 use asvgf::Camera;
 use asvgf::scene::{Light, LightKind, Material, Mesh, Node, Scene, Transform};
@@ -20,12 +20,12 @@ pub fn lambert(color: [f32; 3]) -> Material {
     Material { base_color: [color[0], color[1], color[2], 1.0], ..Default::default() }
 }
 
-/// A surface that emits and reflects nothing.
+/// A surface that emits light and reflects nothing.
 pub fn emitter(radiance: [f32; 3]) -> Material {
     Material { emissive: radiance, ..lambert([0.0; 3]) }
 }
 
-/// Each mesh at the place that it was made for.
+/// A scene with each mesh at the place that it was made for.
 pub fn scene(materials: Vec<Material>, meshes: Vec<Mesh>) -> Scene {
     let nodes = (0..meshes.len()).map(|mesh| Node { meshes: vec![mesh], ..Default::default() }).collect();
     Scene { materials, meshes, nodes, ..Default::default() }
@@ -34,20 +34,20 @@ pub fn scene(materials: Vec<Material>, meshes: Vec<Mesh>) -> Scene {
 /// Adds a light without area that shines down from a place.
 pub fn shine(scene: &mut Scene, kind: LightKind, intensity: [f32; 3], range: f32, from: [f32; 3]) {
     scene.lights.push(Light { kind, intensity, range });
-    // A quarter turn about x takes −Z to −Y.
+    // A quarter turn about x turns −Z to −Y.
     let half = std::f32::consts::FRAC_1_SQRT_2;
     let transform = Transform::Trs { translation: from, rotation: [-half, 0.0, 0.0, half], scale: [1.0; 3] };
     scene.nodes.push(Node { light: Some(scene.lights.len() - 1), transform, ..Default::default() });
 }
 
-/// A floor of 2 × 2 that faces +Y and a wall of 2 × 1 on it that faces +Z, their meeting's middle at a place.
+/// A floor of 2 × 2 that faces +Y and a wall of 2 × 1 on it that faces +Z; the middle of their common edge is at a place.
 pub fn corner([x, y, z]: [f32; 3]) -> Vec<Mesh> {
     let floor = quad([x - 1.0, y, z + 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0], 0);
     let wall = quad([x - 1.0, y, z], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0);
     vec![floor, wall]
 }
 
-/// The camera that looks at a corner.
+/// A camera that looks at a corner.
 pub fn before_corner([x, y, z]: [f64; 3]) -> Camera {
     Camera { eye: [x, y + 0.75, z + 2.0], target: [x, y + 0.25, z], fov_y: 0.7, ..Default::default() }
 }

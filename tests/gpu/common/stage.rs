@@ -15,7 +15,7 @@ fn denoiser(gpu: &Gpu, size: [u32; 2], settings: Settings, specialize: Specializ
     Denoiser::new(&gpu.device, &gpu.queue, &descriptor).unwrap()
 }
 
-/// One denoiser at work.
+/// A denoiser at work on a scene.
 pub struct Stage {
     pub gpu: &'static Gpu,
     pub scene: Scene,
@@ -24,22 +24,22 @@ pub struct Stage {
     pub target: TextureView,
     /// Number of the next frame.
     pub index: u32,
-    /// Seen instead of the scene's camera.
+    /// Replaces the scene's camera.
     pub camera: Option<Camera>,
 }
 
 impl Stage {
-    /// A stage for any scene.
+    /// Makes a stage for any scene.
     pub fn new(scene: Scene, size: [u32; 2], settings: Settings) -> Self {
         Self::on(gpu(), scene, size, settings)
     }
 
-    /// A stage for a built-in scene.
+    /// Makes a stage for a built-in scene.
     pub fn built_in(name: &str, animation: &str, size: [u32; 2], settings: Settings) -> Self {
         Self::new(builtin::scene(name, animation).expect("a built-in scene"), size, settings)
     }
 
-    /// A stage on another device.
+    /// Makes a stage on another device.
     pub fn on(gpu: &'static Gpu, scene: Scene, size: [u32; 2], settings: Settings) -> Self {
         let uploaded = GpuScene::new(&gpu.device, &gpu.queue, &scene).unwrap();
         let denoiser = denoiser(gpu, size, settings, Specialize::Exactly);
@@ -47,13 +47,13 @@ impl Stage {
         Self { gpu, scene, uploaded, denoiser, target, index: 0, camera: None }
     }
 
-    /// The same stage before its first frame, where nothing is left out: a scene that stands still is watched for changes too.
+    /// Returns the same stage before its first frame, with nothing left out: a scene that stands still is checked for changes too.
     pub fn leaving_nothing_out(self) -> Self {
         let (size, settings) = (self.denoiser.size(), self.denoiser.settings().clone());
         Self { denoiser: denoiser(self.gpu, size, settings, Specialize::Everything), ..self }
     }
 
-    /// The pose of the animation at a frame.
+    /// The pose of the animation in a frame.
     pub fn pose_at(&self, index: u32) -> Pose {
         self.scene.pose(Some(0), index as f32 / RATE)
     }
@@ -110,7 +110,7 @@ impl Stage {
         self.target = self.gpu.target(size, TextureFormat::Rgba32Float);
     }
 
-    /// What the target holds.
+    /// The content of the target.
     pub fn image(&self) -> Vec<Rgb> {
         colors(self.gpu, &self.target)
     }

@@ -13,7 +13,7 @@ pub fn mean(image: &[Rgb]) -> f64 {
     image.iter().map(|&c| luminance(c)).sum::<f64>() / image.len() as f64
 }
 
-/// Mean of squared differences over the squared reference; 0.01 keeps the dark from deciding alone.
+/// Mean of squared differences over the squared reference; 0.01 is added, so that dark pixels do not dominate.
 pub fn relative_mse(image: &[Rgb], reference: &[Rgb]) -> f64 {
     assert_eq!(image.len(), reference.len());
     let error = |(&x, &r): (&Rgb, &Rgb)| -> f64 {
@@ -23,7 +23,7 @@ pub fn relative_mse(image: &[Rgb], reference: &[Rgb]) -> f64 {
     image.iter().zip(reference).map(error).sum::<f64>() / image.len() as f64
 }
 
-/// Mean of independent estimates and its standard error.
+/// Mean of independent estimates, and its standard error.
 #[derive(Clone, Copy, Debug)]
 pub struct Estimate {
     pub mean: f64,
@@ -38,15 +38,15 @@ impl Estimate {
         Self { mean, error: (variance / n).sqrt() }
     }
 
-    /// Asserts that the mean is `expected` within three standard errors (0.3 % of sound tests would fail, were the random
-    /// numbers not always the same) and `rounding`, relative: of f16 albedo, 18-bit radiance and f32 arithmetic.
+    /// Asserts that the mean is `expected` within three standard errors and `rounding`. With new random numbers on every run, 0.3 % of
+    /// sound tests would fail. `rounding` is relative and covers f16 albedo, 18-bit radiance and f32 arithmetic.
     #[track_caller]
     pub fn assert_is(self, expected: f64, rounding: f64, what: &str) {
         let allowed = 3.0 * self.error + rounding * expected.abs();
         assert!((self.mean - expected).abs() <= allowed, "{what}: {self:?}, not {expected} ± {allowed}");
     }
 
-    /// As [`Estimate::assert_is`], where the expected number is an estimate too.
+    /// Does the same as [`Estimate::assert_is`] where the expected number is an estimate too.
     #[track_caller]
     pub fn assert_agrees(self, other: Self, rounding: f64, what: &str) {
         let allowed = 3.0 * self.error.hypot(other.error) + rounding * other.mean.abs();

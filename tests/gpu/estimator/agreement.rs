@@ -1,4 +1,4 @@
-//! The three estimators have one mean, and the combined one is never the worst.
+//! The three estimators have the same mean, and the combined one is never the worst.
 
 use super::{ROUNDING, SAMPLINGS, channel, from_above, images, over_floor, tracer};
 use crate::common::plane::{V, unit};
@@ -7,14 +7,14 @@ use asvgf::Camera;
 use asvgf::scene::{Environment, Material, Scene, builtin};
 use std::f64::consts::PI;
 
-/// Asserts that all samplings agree, and that Both's variance is no worse than the worse of the others'.
+/// Asserts that all samplings agree, and that the variance of `Both` is no worse than the worse of the others.
 fn assert_agreement(scene: &Scene, camera: Camera, bounces: u32, what: &str) {
     let [both, lights, scattered] =
         SAMPLINGS.map(|s| channel(&images(scene.clone(), camera, tracer(s, bounces), 96), 1));
     println!("{what}: both {both:.5?}, lights {lights:.5?}, scattered {scattered:.5?}");
     both.assert_agrees(lights, ROUNDING, &format!("{what}, both and lights"));
     both.assert_agrees(scattered, ROUNDING, &format!("{what}, both and scattered"));
-    // An error from 96 images is itself known to 7 %.
+    // The error of an error from 96 images is 7 %.
     assert!(both.error <= 1.2 * lights.error.max(scattered.error), "{what}: weighting makes it worse");
 }
 
@@ -28,7 +28,7 @@ fn in_the_box_of_cornell() {
     }
 }
 
-/// A sky with a bright spot, brighter to one side.
+/// A sky with a bright spot, and brighter to one side.
 fn sky() -> Environment {
     let (width, height) = (8, 4);
     let radiance = (0..width * height).map(|i| [0.1 * i as f32, 0.05 + 0.02 * (i % 5) as f32, 0.3]).collect();
@@ -37,7 +37,7 @@ fn sky() -> Environment {
     sky
 }
 
-/// Radiance of the sky in a direction, as its documentation has it: u = ½ + atan2(z, x)/2π, v = acos(y)/π.
+/// Radiance of the sky in a direction by its documented mapping: u = ½ + atan2(z, x)/2π, v = acos(y)/π.
 fn sky_radiance(sky: &Environment, d: V) -> f64 {
     let u = 0.5 + d[2].atan2(d[0]) / (2.0 * PI);
     let v = d[1].acos() / PI;
@@ -63,7 +63,7 @@ fn under_a_sky_with_a_bright_spot() {
     let expected = over_floor(|_| 0.6 * sum / f64::from(rows * columns));
     for sampling in SAMPLINGS {
         let found = channel(&images(scene.clone(), from_above(), tracer(sampling, 0), 96), 1);
-        // The midpoint rule is off where texels end, by a row in 400 at worst.
+        // The midpoint rule is wrong at the borders of texels, by a row in 400 at worst.
         found.assert_is(expected, 2e-3, &format!("sky, {sampling:?}"));
     }
 }

@@ -1,4 +1,4 @@
-//! A rectangular lamp over a floor, whose form factor is known (Siegel and Howell, configuration 3 of the catalogue).
+//! A rectangular lamp over a floor, with a known form factor (Siegel and Howell, configuration 3 of the catalogue).
 
 use super::{ROUNDING, SAMPLINGS, channel, from_above, images, over_floor, tracer};
 use crate::common::plane::V;
@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 const ALBEDO: f64 = 0.7;
 const RADIANCE: [f32; 3] = [5.0, 2.0, 1.0];
 
-/// The lamp: x, z from a corner, at a height.
+/// The lamp's extents in x and z, at a height.
 const LAMP: [[f64; 2]; 2] = [[-0.4, 0.5], [-0.3, 0.9]];
 const HEIGHT: f64 = 1.1;
 
@@ -20,7 +20,7 @@ fn corner(a: f64, b: f64) -> f64 {
     (a / ra * (b / ra).atan() + b / rb * (a / rb).atan()) / (2.0 * PI)
 }
 
-/// To any rectangle, as the signed sum of four.
+/// Form factor to any rectangle, as the signed sum of four.
 fn form_factor(p: V, [[x0, x1], [z0, z1]]: [[f64; 2]; 2]) -> f64 {
     let c = |x: f64, z: f64| corner((x - p[0]) / HEIGHT, (z - p[2]) / HEIGHT);
     c(x1, z1) - c(x0, z1) - c(x1, z0) + c(x0, z0)
@@ -35,7 +35,7 @@ fn lamp_over_floor(material: Material) -> Scene {
     scene(vec![lambert([ALBEDO as f32; 3]), material], vec![floor, lamp])
 }
 
-/// The camera must not see the lamp, which is between it and the floor: it looks from below the lamp's height.
+/// A camera below the lamp's height, because the lamp must not hide the floor from it.
 fn below() -> asvgf::Camera {
     asvgf::Camera { eye: [0.3, 1.0, 0.2], fov_y: 0.6, ..from_above() }
 }
@@ -76,14 +76,14 @@ fn a_lamp_has_a_dark_back() {
 fn a_mirrored_lamp_shines_where_its_mirror_image_would() {
     for movable in [false, true] {
         let mut scene = lamp_over_floor(emitter(RADIANCE));
-        // Mirrored twice in space, once in its mesh: the same rectangle, still facing down.
+        // The lamp is mirrored twice in space and once in its mesh: the same rectangle, still facing down.
         scene.meshes[1].positions.iter_mut().for_each(|p| p[0] = -p[0]);
         scene.meshes[1].triangles.iter_mut().for_each(|t| t.swap(1, 2));
         scene.nodes[1].transform =
             Transform::Trs { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [-1.0, 1.0, 1.0] };
         scene.nodes[1].movable = movable;
         assert_floor_is_lit(&scene, 1.0, &format!("mirrored, movable: {movable}"));
-        // Mirrored in height, and lifted back: it faces up.
+        // The lamp is mirrored in height and lifted back: it faces up.
         let up = Transform::Trs {
             translation: [0.0, 2.0 * HEIGHT as f32, 0.0],
             rotation: [0.0, 0.0, 0.0, 1.0],
@@ -97,7 +97,7 @@ fn a_mirrored_lamp_shines_where_its_mirror_image_would() {
 #[test]
 fn a_texture_decides_where_a_lamp_shines() {
     let mut scene = lamp_over_floor(emitter(RADIANCE));
-    // u runs along x: the left half is dark.
+    // u runs along x, so the left half is dark.
     scene.images = vec![Image { width: 2, height: 1, texels: vec![[0, 0, 0, 255], [255; 4]], ..Default::default() }];
     scene.materials[1].emissive_texture = Some(Texture { nearest: true, ..Texture::new(0) });
     let half = [[0.5 * (LAMP[0][0] + LAMP[0][1]), LAMP[0][1]], LAMP[1]];
@@ -111,7 +111,7 @@ fn a_texture_decides_where_a_lamp_shines() {
 fn light_passes_where_a_mask_leaves_nothing() {
     for (opacity, passed) in [(0.2, 1.0), (0.8, 0.0)] {
         let mut scene = lamp_over_floor(emitter(RADIANCE));
-        // A sheet just below the lamp, above the camera.
+        // The sheet is just below the lamp, above the camera.
         let sheet = quad([-9.0, 1.05, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 2);
         scene.materials.push(Material {
             base_color: [0.0, 0.0, 0.0, opacity],
@@ -128,7 +128,7 @@ fn light_passes_where_a_mask_leaves_nothing() {
 fn a_mask_may_come_from_a_texture() {
     let mut scene = lamp_over_floor(emitter(RADIANCE));
     let [[x0, x1], [z0, z1]] = LAMP.map(|r| r.map(|v| v as f32));
-    // Right below the lamp, as large: its left half is there, its right half is not.
+    // The sheet is right below the lamp and as large. Its left half is opaque, its right half is a hole.
     let y = HEIGHT as f32 - 1e-3;
     scene.images = vec![Image { width: 2, height: 1, texels: vec![[0, 0, 0, 255], [0; 4]], ..Default::default() }];
     scene.materials.push(Material {
@@ -140,6 +140,6 @@ fn a_mask_may_come_from_a_texture() {
     scene.nodes.push(asvgf::scene::Node { meshes: vec![2], ..Default::default() });
     let half = [[0.5 * (LAMP[0][0] + LAMP[0][1]), LAMP[0][1]], LAMP[1]];
     let found = images(scene, below(), tracer(Sampling::Both, 0), 64);
-    // The sheet is 1 mm off: 0.2 % of what it lets through.
+    // The sheet is 1 mm below the lamp, an error of 0.2 % of the light that it lets through.
     channel(&found, 0).assert_is(expected(half, 0), 4e-3, "half a sheet");
 }

@@ -1,4 +1,4 @@
-//! Where as much light arrives from everywhere, what is reflected follows from the albedo alone.
+//! White furnaces: where the same light arrives from everywhere, the reflected light follows from the albedo alone.
 
 use super::{ROUNDING, SAMPLINGS, channel, from_above, images, tracer};
 use crate::common::scenes::{lambert, quad, scene};
@@ -30,7 +30,7 @@ fn a_room_of_glowing_walls_shows_the_partial_sums_of_the_albedos_powers() {
         for bounces in [0, 1, 4] {
             let found = images(room(material.clone()), camera, tracer(sampling, bounces), 32);
             for (i, &a) in albedo.iter().enumerate() {
-                // What the wall emits, and what it reflects after 1, 2 … bounces + 1 reflections.
+                // The sum of the wall's emission and of the light that it reflects after 1, 2 … bounces + 1 reflections.
                 let expected: f64 = (0..=bounces + 1).map(|k| f64::from(a).powi(k as i32)).sum();
                 channel(&found, i).assert_is(expected, ROUNDING, &format!("{sampling:?}, {bounces} bounces"));
             }
@@ -43,7 +43,7 @@ fn roulette_changes_no_mean() {
     let material = Material { emissive: [1.0; 3], ..lambert([0.5; 3]) };
     let camera = Camera { eye: [0.1, -0.2, 0.3], target: [0.5, 0.1, -1.0], fov_y: 1.2, ..Default::default() };
     let settings = TracerSettings { roulette: 0, ..tracer(Sampling::Both, 64) };
-    // Σ ½ᵏ over all k, to 2⁻⁶⁵.
+    // The sum is Σ ½ᵏ over all k, to 2⁻⁶⁵.
     channel(&images(room(material), camera, settings, 64), 0).assert_is(2.0, ROUNDING, "roulette from the start");
 }
 
@@ -64,7 +64,7 @@ fn a_flat_surface_under_a_white_sky_shows_its_albedo() {
     }
 }
 
-/// Part of the light from everywhere that white GGX metal reflects in one scattering towards a viewer at this angle: the
+/// Fraction of the light from everywhere that white GGX metal reflects in one scattering towards a viewer at this angle: the
 /// integral of D·G₂/(4·cos) with height-correlated Smith masking (Heitz 2014, eq. 99), by the midpoint rule.
 fn ggx_albedo(alpha: f64, view: f64) -> f64 {
     let lambda = |c: f64| 0.5 * ((1.0 + alpha * alpha * (1.0 - c * c) / (c * c)).sqrt() - 1.0);
@@ -75,7 +75,7 @@ fn ggx_albedo(alpha: f64, view: f64) -> f64 {
         let z = (f64::from(i) + 0.5) / f64::from(steps);
         for j in 0..steps {
             let azimuth = (f64::from(j) + 0.5) / f64::from(steps) * PI;
-            // Half vector: its squared length is 2 + 2·cos between the two.
+            // The half vector's squared length is 2 + 2·cos of the angle between the two directions.
             let between = view * z + sine * (1.0 - z * z).sqrt() * azimuth.cos();
             let h = (view + z) / (2.0 + 2.0 * between).sqrt();
             let d = alpha * alpha / (PI * (h * h * (alpha * alpha - 1.0) + 1.0).powi(2));

@@ -1,4 +1,4 @@
-//! Environments with more texels than the table has cells, and images beyond the size of a storage binding.
+//! Environments with more texels than the table has cells, and images larger than a storage binding.
 
 use super::{ROUNDING, SAMPLINGS, SIZE, channel, from_above, images, tracer};
 use crate::common::scenes::{lambert, quad, scene};
@@ -16,8 +16,8 @@ fn floor_under(environment: Environment) -> Scene {
     Scene { environment: Some(environment), ..scene(vec![lambert([ALBEDO as f32; 3])], vec![floor]) }
 }
 
-/// Radiance that the floor reflects. The integral of the cosine over a texel is 2π/width · ½ (cos² of its row's upper − cos² of its
-/// lower edge).
+/// Radiance that the floor reflects. The integral of the cosine over a texel is 2π/width · ½ (cos² of its row's upper edge − cos²
+/// of its lower edge).
 fn reflected(environment: &Environment, channel: usize) -> f64 {
     let (width, height) = (environment.width as usize, f64::from(environment.height));
     let squared = |row: usize| (PI * (row as f64 / height).min(0.5)).cos().powi(2);
@@ -29,7 +29,7 @@ fn reflected(environment: &Environment, channel: usize) -> f64 {
     ALBEDO / PI * irradiance.sum::<f64>()
 }
 
-/// A sky that is brighter to one side and above, black in places.
+/// A sky that is brighter to one side and above, and black in places.
 fn sky(width: u32, height: u32) -> Environment {
     let texel = |i: u32| {
         let (x, y) = ((i % width) as f32 / width as f32, (i / width) as f32 / height as f32);
@@ -38,7 +38,7 @@ fn sky(width: u32, height: u32) -> Environment {
     Environment { width, height, radiance: (0..width * height).map(texel).collect() }
 }
 
-/// Adds a sun of one texel, half way up, that outshines the rest tenfold.
+/// Adds a sun of one texel, half way up, ten times as bright as all the rest.
 fn add_sun(sky: &mut Environment) {
     let texel = sky.height / 4 * sky.width + sky.width / 3;
     let radiance = 5.0 * (sky.width * sky.height) as f32;
@@ -58,7 +58,7 @@ fn a_floor_reflects_what_a_large_sky_sheds_on_it() {
     for sampling in SAMPLINGS {
         let found = images(floor_under(sky.clone()), from_above(), tracer(sampling, 0), 96);
         for i in 0..3 {
-            // Where scattered rays find a texel depends on the adapter's arc functions, which lavapipe has to some 10⁻⁴.
+            // The texel that a scattered ray finds depends on the adapter's arc functions; lavapipe's are precise to some 10⁻⁴.
             channel(&found, i).assert_is(reflected(&sky, i), 5e-4, &format!("large sky, {sampling:?}"));
         }
     }
@@ -79,7 +79,7 @@ fn more_texels_of_the_same_light_change_nothing() {
     let mut small = sky(525, 275);
     add_sun(&mut small);
     let expected = reflected(&small, 1);
-    // Cells of one texel, of two and of eight.
+    // The cells have one texel, two, and eight.
     let found = [1, 2, 4].map(|times| {
         let large = repeated(&small, times);
         assert!((reflected(&large, 1) / expected - 1.0).abs() < 1e-9);
@@ -88,12 +88,12 @@ fn more_texels_of_the_same_light_change_nothing() {
     println!("{found:?}, exactly {expected}");
     for estimate in found {
         estimate.assert_is(expected, ROUNDING, "repeated");
-        // The cells' texels are told apart: nothing is lost. An error from 96 images is itself known to 7 %.
+        // The noise is the same, so the table tells the texels of a cell apart. The error of an error from 96 images is 7 %.
         assert!((estimate.error / found[0].error - 1.0).abs() < 0.25, "the noise is another: {found:?}");
     }
 }
 
-/// Mean of the images that a sky of this size makes, and bytes that the scene takes.
+/// Mean of the images under a sky of this size, and the bytes of the scene.
 fn under_a_sky_of(width: u32, height: u32) -> (Estimate, f64, u64) {
     let mut sky = Environment { width, height, radiance: vec![[0.5; 3]; (width * height) as usize] };
     add_sun(&mut sky);
@@ -138,14 +138,14 @@ fn six_images_of_4096_texels_a_side_fit_the_default_limits() {
         texels[(y * SIDE + x) as usize] = color(i);
         Image { width: SIDE, height: SIDE, texels, ..Default::default() }
     };
-    // Each shows one texel of its image, of which all others are black.
+    // Each material shows one texel of its image; all others are black.
     let material = |i: u32| {
         let constant = |x: u32| [0.0, 0.0, (x as f32 + 0.5) / SIDE as f32];
         let transform = at(i).map(constant);
         let texture = Texture { transform, nearest: true, ..Texture::new(i as usize) };
         Material { base_color_texture: Some(texture), unlit: true, ..Default::default() }
     };
-    // Stripes from left to right.
+    // The meshes are stripes from left to right.
     let (left, width) = (0.3 - 3.0 * 0.15_f32.tan() * 1.5, 3.0 * 0.15_f32.tan() * 3.0 / COUNT as f32);
     let stripe = |i: u32| quad([left + i as f32 * width, 0.0, 9.0], [width, 0.0, 0.0], [0.0, 0.0, -18.0], i as usize);
     let scene = scene((0..COUNT).map(material).collect(), (0..COUNT).map(stripe).collect());
@@ -159,7 +159,7 @@ fn six_images_of_4096_texels_a_side_fit_the_default_limits() {
     for i in 0..COUNT {
         let pixel = picture[(SIZE[1] / 2 * SIZE[0] + (2 * i + 1) * SIZE[0] / COUNT / 2) as usize];
         for (found, encoded) in pixel.into_iter().zip(color(i)) {
-            // Below 10.3 of 255 the curve is a line.
+            // Below 10.3 of 255, the sRGB curve is a line.
             let expected = if encoded > 10 { linear(encoded) } else { f64::from(encoded) / 255.0 / 12.92 };
             assert!((f64::from(found) - expected).abs() < 1e-3, "image {i}: {pixel:?}, not {:?}", color(i));
         }

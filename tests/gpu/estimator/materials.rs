@@ -1,4 +1,4 @@
-//! Materials that are not simply lit.
+//! Materials with special light: unlit, coloured by vertices, coated, transparent.
 
 use super::{SIZE, channel, floor_points, from_above, images, tracer};
 use crate::common::scenes::{lambert, quad, scene};
@@ -8,14 +8,14 @@ use asvgf::{Camera, Sampling};
 #[test]
 fn an_unlit_surface_shows_its_colour_and_lights_nothing() {
     let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
-    // Half of what the camera sees lies under an unlit sign that faces down, and up at the camera with its back.
+    // Half of the camera's view lies under an unlit sign. It faces down, and turns its back up to the camera.
     let sign = quad([0.3, 0.5, -9.0], [9.0, 0.0, 0.0], [0.0, 0.0, 18.0], 1);
     let unlit = Material { unlit: true, ..lambert([0.25, 0.5, 0.75]) };
     let scene = scene(vec![lambert([0.9; 3]), unlit], vec![floor, sign]);
     let image = images(scene, from_above(), tracer(Sampling::Both, 3), 1).remove(0);
     for (i, color) in image.iter().enumerate() {
         let x = i as u32 % SIZE[0];
-        // The camera is above x = 0.3, its right is +x.
+        // The camera is above x = 0.3, and its right is +x.
         let expected = if x >= SIZE[0] / 2 { [0.25, 0.5, 0.75] } else { [0.0; 3] };
         for (c, e) in color.iter().zip(expected) {
             assert!((c - e).abs() <= 1e-5, "pixel {i}: {color:?}, not {expected:?}");
@@ -29,7 +29,7 @@ fn an_environment_is_seen_where_nothing_is() {
     let scene = Scene { environment: Some(Environment::uniform(radiance)), ..Default::default() };
     let image = images(scene, from_above(), tracer(Sampling::Both, 3), 1).remove(0);
     for c in image {
-        // 18 bits of the largest channel.
+        // Radiance is stored with 18 bits of the largest channel.
         assert!((0..3).all(|i| (c[i] - radiance[i]).abs() <= 7.0 * 4e-6), "{c:?}");
     }
 }
@@ -40,7 +40,7 @@ fn nothing_at_all_is_black() {
     assert!(image.iter().all(|c| *c == [0.0; 3]));
 }
 
-/// A floor under a white sky: each pixel shows what the surface reflects of light from everywhere.
+/// A floor under a white sky: each pixel shows the fraction of light from everywhere that the surface reflects.
 fn under_the_sky(material: Material) -> Scene {
     let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
     Scene { environment: Some(Environment::uniform([1.0; 3])), ..scene(vec![material], vec![floor]) }
@@ -52,7 +52,7 @@ fn colours_of_vertices_multiply_the_albedo_and_are_interpolated() {
     // Red grows with x, green with −z, from corner to corner; blue is the same everywhere.
     scene.meshes[0].colors =
         vec![[0.0, 0.0, 0.25, 1.0], [1.0, 0.0, 0.25, 1.0], [1.0, 1.0, 0.25, 1.0], [0.0, 1.0, 0.25, 1.0]];
-    // A mesh without colours is white beside it.
+    // A mesh without colours beside it is white.
     scene.meshes.push(quad([0.3, 0.01, 9.0], [9.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0));
     scene.nodes.push(Node { meshes: vec![1], ..Default::default() });
     let found = images(scene, from_above(), tracer(Sampling::Scattered, 0), 1).remove(0);
@@ -72,11 +72,11 @@ fn colours_of_vertices_multiply_the_albedo_and_are_interpolated() {
 #[test]
 fn opacity_of_vertices_makes_holes() {
     let mut scene = under_the_sky(Material { alpha: Alpha::Mask(0.5), ..lambert([0.5; 3]) });
-    // Opacity grows with x: the floor is there from x = 0 on.
+    // Opacity grows with x, so the floor begins at x = 0.
     scene.meshes[0].colors = [0.0, 1.0, 1.0, 0.0].map(|opacity| [1.0, 1.0, 1.0, opacity]).to_vec();
     let found = images(scene, from_above(), tracer(Sampling::Scattered, 0), 1).remove(0);
     for (color, place) in found.iter().zip(floor_points()) {
-        // Through the holes the sky is seen.
+        // The sky is visible through the holes.
         let expected = if place[0] > 0.0 { 0.5 } else { 1.0 };
         assert!((color[0] - expected).abs() < 1e-3, "{color:?} at {place:?}");
     }
@@ -90,7 +90,7 @@ fn coated(albedo: f64, normal: f64, edge: f64) -> f64 {
     let mut sum = 0.0;
     for i in 0..steps {
         let cos = (f64::from(i) + 0.5) / f64::from(steps);
-        // At α = 1: D = 1/π, Λ(c) = (1/c − 1)/2, and Λ is 0 towards the viewer. The half vector is halfway up.
+        // With α = 1, D = 1/π, Λ(c) = (1/c − 1)/2, and Λ is 0 towards the viewer. The half vector is halfway up.
         let half = ((1.0 + cos) / 2.0).sqrt();
         let fresnel = normal + (edge - normal) * (1.0 - half).powi(5);
         let lambda = 0.5 * (1.0 / cos - 1.0);
@@ -103,7 +103,7 @@ fn coated(albedo: f64, normal: f64, edge: f64) -> f64 {
 fn a_coat_reflects_by_its_colour_its_edge_and_its_textures() {
     let coat = |material: Material| {
         let mut scene = under_the_sky(material);
-        // Alpha ⅘, colour in sRGB: 255 is 1, 188 is 0.5029.
+        // Alpha is ⅘. The colour is in sRGB: 255 is 1, 188 is 0.5029.
         scene.images.push(Image { width: 1, height: 1, texels: vec![[255, 188, 0, 204]], ..Default::default() });
         let camera = Camera { fov_y: 0.01, ..from_above() };
         let found = images(scene, camera, tracer(Sampling::Both, 0), 64);
@@ -126,7 +126,7 @@ fn a_coat_reflects_by_its_colour_its_edge_and_its_textures() {
 
 #[test]
 fn back_faces_of_a_culled_material_are_not_there() {
-    // A sheet between the camera and the floor, whose back or front looks up, in the way of the sky.
+    // A sheet between the camera and the floor hides the sky. Its back or its front looks up.
     let sheet = |culled: bool, up: bool, mirrored: bool, moves: bool| {
         let mut scene = under_the_sky(lambert([0.5; 3]));
         let [u, v] = [[18.0, 0.0, 0.0], [0.0, 0.0, -18.0]];
@@ -142,7 +142,7 @@ fn back_faces_of_a_culled_material_are_not_there() {
         for mirrored in [false, true] {
             assert!((sheet(false, false, mirrored, moves) - 0.125).abs() < 1e-4, "both sides are seen");
             assert!((sheet(true, true, mirrored, moves) - 0.125).abs() < 1e-4, "the front is seen");
-            // Light reaches the floor through the back; it is the front that the floor sees, which keeps the sky out.
+            // Light reaches the floor through the sheet's back. The floor sees its front, which keeps the sky out.
             let through = sheet(true, false, mirrored, moves);
             assert!((through - 0.125).abs() > 1e-3, "the back is seen");
         }
@@ -176,7 +176,7 @@ fn a_blended_surface_covers_as_much_as_its_opacity() {
 
 #[test]
 fn light_goes_through_a_blended_surface() {
-    // A black sheet takes its opacity of the light on the way down, and again on the way up. Nothing lights it in turn.
+    // A black sheet absorbs its opacity's share of the light on the way down, and again on the way up. It reflects nothing itself.
     let sheet = Material { alpha: Alpha::Blend, base_color: [0.0, 0.0, 0.0, 0.4], ..lambert([0.0; 3]) };
     for sampling in super::SAMPLINGS {
         let scene = behind_a_sheet(sheet.clone(), lambert([0.5; 3]), false);
@@ -187,7 +187,7 @@ fn light_goes_through_a_blended_surface() {
 
 #[test]
 fn two_instances_of_one_mesh_are_met_independently() {
-    // Both sheets are the same triangles, so that a random number of the triangle alone would let through all or nothing.
+    // Both sheets are the same triangles, so a random number that depends on the triangle alone would let all or nothing through.
     let sheet = Material { alpha: Alpha::Blend, unlit: true, base_color: [0.0, 0.0, 0.0, 0.5], ..lambert([0.0; 3]) };
     let mut scene = behind_a_sheet(sheet, Material { unlit: true, ..lambert([1.0; 3]) }, true);
     let transform = Transform::Trs { translation: [0.0, 0.25, 0.0], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
@@ -216,7 +216,7 @@ fn what_is_seen_through_a_blended_surface_comes_to_rest() {
 
 #[test]
 fn the_edge_between_two_triangles_of_a_blended_quad_covers_once() {
-    // The diagonal goes through the centres of pixels.
+    // The triangles' common diagonal goes through the centres of pixels.
     let sheet = Material { alpha: Alpha::Blend, unlit: true, base_color: [0.8, 0.0, 0.0, 0.3], ..lambert([0.0; 3]) };
     let black = Material { unlit: true, ..lambert([0.0; 3]) };
     for moves in [false, true] {
@@ -225,7 +225,7 @@ fn the_edge_between_two_triangles_of_a_blended_quad_covers_once() {
         let diagonal = (0..SIZE[1]).map(|row| (row * SIZE[0] + (SIZE[0] - SIZE[1]) / 2 + SIZE[1] - 1 - row) as usize);
         let mean = |image: &Vec<[f32; 3]>| diagonal.clone().map(|pixel| f64::from(image[pixel][0])).sum::<f64>() / 16.0;
         let mean = found.iter().map(mean).sum::<f64>() / found.len() as f64;
-        // 6400 coins of 0.3: 0.8 · 0.46 / 80 is one standard deviation.
+        // 6400 samples of a coin with a probability of 0.3: one standard deviation is 0.8 · 0.46 / 80.
         assert!((mean - 0.24).abs() < 0.02, "{mean}");
     }
 }
@@ -234,7 +234,7 @@ fn the_edge_between_two_triangles_of_a_blended_quad_covers_once() {
 fn the_albedo_behind_a_blended_surface_is_that_of_all_that_is_seen() {
     use crate::common::stage::Stage;
     use asvgf::{Settings, View};
-    // Reflectance at normal incidence is part of the albedo.
+    // The reflectance at normal incidence is part of the albedo.
     let red =
         Material { alpha: Alpha::Blend, base_color: [0.8, 0.0, 0.0, 0.3], specular: [0.04; 3], ..lambert([0.0; 3]) };
     let blue = Material { specular: [0.04; 3], ..lambert([0.0, 0.0, 0.8]) };

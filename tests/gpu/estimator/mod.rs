@@ -1,4 +1,4 @@
-//! Whether the path tracer's mean is right, against closed forms.
+//! The path tracer's mean against closed forms.
 
 mod agreement;
 mod area;
@@ -16,12 +16,12 @@ use asvgf::{Camera, Mode, Sampling, Settings, TracerSettings};
 
 const SIZE: [u32; 2] = [24, 16];
 
-/// Arithmetic in f32, an 18-bit mantissa in between, a normal of 30 bits: relative, over some ten operations.
+/// Relative rounding error of some ten operations: arithmetic in f32, an 18-bit mantissa in between, and a normal of 30 bits.
 const ROUNDING: f64 = 2e-4;
 
 const SAMPLINGS: [Sampling; 3] = [Sampling::Both, Sampling::Lights, Sampling::Scattered];
 
-/// Looks down on the floor about the origin.
+/// A camera that looks down on the floor about the origin.
 fn from_above() -> Camera {
     Camera { eye: [0.3, 3.0, 0.2], target: [0.3, 0.0, 0.2], up: [0.0, 0.0, -1.0], fov_y: 0.3, jitter: [0.0; 2] }
 }
@@ -30,7 +30,7 @@ fn tracer(sampling: Sampling, bounces: u32) -> TracerSettings {
     TracerSettings { sampling, bounces, roulette: 1000, ..Default::default() }
 }
 
-/// Independent images of a scene as its animation begins.
+/// Independent images of a scene at the start of its animation.
 fn images(scene: Scene, camera: Camera, tracer: TracerSettings, count: u32) -> Vec<Vec<Rgb>> {
     let settings = Settings { mode: Mode::Noisy, tracer, ..Settings::adaptive() };
     let mut stage = Stage::new(scene, SIZE, settings);
@@ -39,13 +39,13 @@ fn images(scene: Scene, camera: Camera, tracer: TracerSettings, count: u32) -> V
     (0..count).map(|_| stage.frame_in(&pose).image()).collect()
 }
 
-/// Mean of a channel over the image, with the error that the images' differences tell.
+/// Mean of a channel over the image, with the standard error from the differences between the images.
 fn channel(images: &[Vec<Rgb>], channel: usize) -> Estimate {
     let mean = |image: &Vec<Rgb>| image.iter().map(|c| f64::from(c[channel])).sum::<f64>() / image.len() as f64;
     Estimate::of(&images.iter().map(mean).collect::<Vec<_>>())
 }
 
-/// What each pixel of [`from_above`] sees of the floor, y = 0.
+/// The point of the floor, y = 0, that each pixel of [`from_above`] sees.
 fn floor_points() -> Vec<V> {
     let camera = Pinhole::new(&from_above(), SIZE);
     (0..SIZE[1])
@@ -57,7 +57,7 @@ fn floor_points() -> Vec<V> {
         .collect()
 }
 
-/// Mean of a function over what the camera sees of the floor.
+/// Mean of a function over the visible floor.
 fn over_floor(f: impl Fn(V) -> f64) -> f64 {
     let points = floor_points();
     points.iter().map(|&p| f(p)).sum::<f64>() / points.len() as f64

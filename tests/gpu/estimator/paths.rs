@@ -1,4 +1,4 @@
-//! However many paths there are, and however deep the trees, their mean is the same.
+//! The mean is the same for any number of paths and any depth of the trees.
 
 use super::channel;
 use crate::common::scenes::{emitter, lambert, quad, scene};
@@ -9,7 +9,7 @@ use asvgf::{Mode, Settings, TracerSettings, View};
 
 const SIZE: [u32; 2] = [12, 8];
 
-/// Images of a scene with so many paths per pixel, and the dispatches that traced each.
+/// Images of a scene with `samples` paths per pixel, and the number of dispatches that traced each.
 fn images(scene: &Scene, samples: u32, count: u32) -> (Vec<Vec<Rgb>>, usize, Stage) {
     let tracer = TracerSettings { samples, ..Default::default() };
     let mut stage = Stage::new(scene.clone(), SIZE, Settings { mode: Mode::Noisy, tracer, ..Settings::adaptive() });
@@ -19,7 +19,7 @@ fn images(scene: &Scene, samples: u32, count: u32) -> (Vec<Vec<Rgb>>, usize, Sta
     (images, traces, stage)
 }
 
-/// Asserts that the mean of many paths is that of one.
+/// Asserts that the mean of many paths is the mean of one.
 fn assert_mean(scene: &Scene, most: &[u32], what: &str) {
     let (one, ..) = images(scene, 1, 128);
     let expected = channel(&one, 1);
@@ -29,7 +29,7 @@ fn assert_mean(scene: &Scene, most: &[u32], what: &str) {
         let mean = channel(&found, 1);
         let error = expected.error / f64::from(samples).sqrt();
         println!("{what}, {samples} paths in {dispatches} dispatches: {mean:?}, of one {expected:?}");
-        // Four images do not know their own error well.
+        // Four images are too few for an estimate of their own error.
         Estimate { error, ..mean }.assert_agrees(expected, 1e-3, &format!("{what}, {samples} paths"));
         let pixels = f64::from(SIZE[0] * SIZE[1]);
         let rays = stage.view(View::Rays).iter().map(|r| f64::from(r[0])).sum::<f64>();
@@ -48,7 +48,7 @@ fn a_thousand_paths_have_the_mean_of_one() {
     assert_mean(&builtin::scene("cornell", "all").unwrap(), &[16, 1024], "cornell");
 }
 
-/// A lamp over a floor that is cut into a million triangles, bumpy enough that rays pass many of them.
+/// A lamp over a floor of a million triangles, bumpy enough that rays pass many of them.
 fn million() -> Scene {
     let side = 708;
     let at = |x: usize, y: usize| {

@@ -1,4 +1,4 @@
-//! Lights without area over a floor: no noise, so every pixel is compared.
+//! Lights without area over a floor: they make no noise, so every pixel is compared.
 
 use super::{floor_points, from_above, images, tracer};
 use crate::common::plane::{V, dot, length, scale, sub};
@@ -29,7 +29,7 @@ fn assert_floor_shows(scene: Scene, expected: impl Fn(V) -> f64, what: &str) {
         for (color, point) in image.iter().zip(floor_points()) {
             for (c, i) in color.iter().zip(INTENSITY) {
                 let expected = f64::from(i) * expected(point);
-                // Where a cone has all but ended, the difference of two cosines is all there is.
+                // Near the border of a cone, only the difference of two cosines is left, so the error is absolute.
                 let allowed = 2e-4 * expected + 1e-6;
                 assert!((f64::from(*c) - expected).abs() <= allowed, "{what}, {point:?}: {c}, not {expected}");
             }
@@ -39,7 +39,7 @@ fn assert_floor_shows(scene: Scene, expected: impl Fn(V) -> f64, what: &str) {
     }
 }
 
-/// Inverse square and cosine on the floor, and the cosine at a light that shines down.
+/// Inverse square of the distance and cosine on the floor, and the cosine at a light that shines down.
 fn falloff(point: V) -> (f64, f64, f64) {
     let way = sub(PLACE.map(f64::from), point);
     let distance = length(way);
@@ -65,7 +65,7 @@ fn a_range_ends_it_smoothly() {
 #[test]
 fn without_a_range_it_does_not_end() {
     let mut scene = unlit();
-    // As bright as the directional light below.
+    // This light is as bright as the directional light below.
     shine(&mut scene, LightKind::Point, INTENSITY.map(|i| i * 1e20), f32::INFINITY, [0.0, 1e10, 0.0]);
     assert_floor_shows(scene, |_| ALBEDO / PI, "a light far away");
 }
@@ -92,6 +92,6 @@ fn two_lights_add_up() {
     shine(&mut scene, LightKind::Directional, INTENSITY, f32::INFINITY, [0.0; 3]);
     let images = images(scene, from_above(), tracer(Sampling::Both, 0), 64);
     let expected = super::over_floor(|p| falloff(p).0 + ALBEDO / PI) * f64::from(INTENSITY[0]);
-    // One of the two is sampled at a time.
+    // Each path samples one of the two lights.
     super::channel(&images, 0).assert_is(expected, super::ROUNDING, "point and directional");
 }

@@ -1,4 +1,4 @@
-//! What is not a number, infinite or negative neither spreads nor goes uncounted.
+//! Values that are not a number, infinite or negative do not spread, and are counted.
 
 use super::{Recorded, SIZE, Uploaded, colors, recorded, target, upload};
 use crate::common::gpu::gpu;
@@ -13,8 +13,8 @@ fn counting(gradient: Gradient) -> Denoiser {
     Denoiser::new(&gpu().device, &gpu().queue, &descriptor).unwrap()
 }
 
-/// A frame whose every 7th pixel has a channel that is none, each kind in turn; and the same frame cleaned by hand, with how many
-/// pixels are not finite and how many negative.
+/// A frame with an invalid channel in every 7th pixel, each kind in turn; the same frame cleaned by hand; and the number of pixels
+/// that are not finite and of those that are negative.
 fn soiled(frame: &Recorded) -> (Recorded, Recorded, [u32; 2]) {
     let (mut bad, mut good, mut counts) = (frame.clone(), frame.clone(), [0; 2]);
     let kinds = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, -f32::NAN, -1e30];
@@ -22,9 +22,9 @@ fn soiled(frame: &Recorded) -> (Recorded, Recorded, [u32; 2]) {
         let value = kinds[k % kinds.len()];
         bad.light[i][k % 3] = value;
         match value {
-            // No sample at all.
+            // A pixel that is not a number has no sample at all.
             _ if value.is_nan() => good.light[i] = [f32::NAN; 3],
-            // Marked as such, whatever is in the other channels.
+            // An infinite channel marks the pixel, whatever is in the other channels.
             f32::INFINITY => good.light[i][k % 3] = value,
             _ => good.light[i][k % 3] = 0.0,
         }
@@ -42,7 +42,7 @@ fn denoise(denoiser: &mut Denoiser, frame: &Recorded) -> Vec<Rgb> {
     colors(&target)
 }
 
-/// The counts of a finished frame. Another test's poll of the shared device may be the one that brings them.
+/// The counts of a finished frame. Another test's poll of the shared device may be the one that delivers them.
 fn counts(denoiser: &mut Denoiser) -> InputCounts {
     for _ in 0..1000 {
         if let Some(counts) = denoiser.take_counts() {
@@ -77,7 +77,7 @@ fn bad_surfaces_are_left_out_and_counted() {
     frame.normal[50] = [0.0; 3];
     frame.motion[70] = [f32::INFINITY, 0.0];
     frame.previous_depth[90] = f32::NAN;
-    // These are no surfaces, and that is allowed.
+    // These pixels have no surface, which is allowed.
     (frame.depth[120], frame.depth[121], frame.depth[122], frame.depth[123]) = (0.0, -1.0, f32::INFINITY, f32::NAN);
     let mut denoiser = counting(Gradient::Off);
     let image = denoise(&mut denoiser, &frame);
@@ -98,7 +98,7 @@ fn bad_pairs_are_left_out_and_counted() {
     let target = target();
     for frame in &frames[..3] {
         let host = Uploaded::new(gpu(), frame);
-        // In each stratum's first pixel; every fifth is not finite.
+        // Values go into each stratum's first pixel; every fifth is not finite.
         let mut values = vec![[-1.0_f32; 3]; frame.light.len()];
         let mut broken = 0;
         let [width, height] = SIZE.map(|s| s as usize);
@@ -126,7 +126,7 @@ fn bad_pairs_are_left_out_and_counted() {
 fn outliers_are_counted_shown_and_leave_no_trace() {
     let frames = recorded(Settings::adaptive());
     let (mut spoilt, mut clean) = (counting(Gradient::Statistics), counting(Gradient::Statistics));
-    // Before the lamp goes out.
+    // These frames are before the lamp goes out.
     for (number, frame) in frames[..6].iter().enumerate() {
         let mut hit = frame.clone();
         let seen = (0..hit.light.len()).filter(|&i| hit.depth[i] > 0.0 && number >= 2);

@@ -1,4 +1,4 @@
-//! A host's own images, read where they are needed, do what copies of them do.
+//! A host's own images, read in place, have the same effect as copies of them.
 
 use super::{Recorded, SIZE, Uploaded, colors, recorded, target, upload};
 use crate::common::gpu::gpu;
@@ -6,7 +6,7 @@ use crate::common::statistics::Rgb;
 use asvgf::{Denoiser, DenoiserDescriptor, FilterSettings, Gradient, Lambda, Mode, Pairs, Settings, Shading};
 use wgpu::{TextureFormat, TextureUsages, TextureView};
 
-/// How the light is handed in.
+/// The form in which the host hands in its light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Light {
     Alone,
@@ -14,7 +14,7 @@ enum Light {
     Demodulated,
 }
 
-/// A frame in which some things are none.
+/// A frame with some invalid values.
 fn soiled(frame: &Recorded) -> Recorded {
     let mut frame = frame.clone();
     for (k, i) in (0..frame.light.len() - 4).step_by(11).enumerate() {
@@ -27,7 +27,7 @@ fn soiled(frame: &Recorded) -> Recorded {
     frame
 }
 
-/// A texture that is radiance and target in one, with an image in it.
+/// A texture that serves as radiance and target, with an image in it.
 fn target_with(image: &[Rgb]) -> TextureView {
     let usage = TextureUsages::TEXTURE_BINDING
         | TextureUsages::STORAGE_BINDING
@@ -45,7 +45,7 @@ fn target_with(image: &[Rgb]) -> TextureView {
     texture.create_view(&Default::default())
 }
 
-/// What becomes of frames, and the bytes that it takes.
+/// The denoised frames, and the bytes of the denoiser.
 fn denoise(
     settings: &Settings,
     frames: &[Recorded],
@@ -64,7 +64,7 @@ fn denoise(
         let target = if in_target { target_with(&frame.light) } else { target() };
         let shading = Shading {
             albedo: (light != Light::Alone).then_some(&host.albedo),
-            // Any image will do.
+            // Any image will do as emission.
             emission: (light == Light::Modulated).then_some(&host.normal),
             demodulated: light == Light::Demodulated,
             lambda: Some(Lambda { view: &lambda, block: 1, confidence: false }),

@@ -1,4 +1,4 @@
-//! A host's images far from the origin: what is blended follows from the way between the cameras, not from where they are.
+//! A host's images far from the origin: blending depends on the distance between the cameras, and not on their places.
 
 use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, target, view};
 use crate::common::gpu::gpu;
@@ -6,10 +6,10 @@ use crate::common::plane::{cross, sub, unit};
 use crate::common::statistics::Rgb;
 use asvgf::{Camera, Matrices, Settings, Surfaces, View, Viewpoint};
 
-/// So far that an eye in f32 would stand still for some frames, and then jump by four metres.
+/// A place so far away that an eye in f32 would stand still for some frames, and then jump by four metres.
 const PLACE: [f64; 3] = [6.0e7 + 1.85, -8192.0, 524_288.0];
 
-/// What becomes of frames that are seen from elsewhere.
+/// Denoises frames that are seen from elsewhere.
 fn replay_from(frames: &[Recorded], elsewhere: impl Fn(&Camera) -> Viewpoint) -> (Vec<Vec<Rgb>>, Vec<Rgb>) {
     let mut denoiser = denoiser(Settings::adaptive());
     let target = target();
@@ -17,7 +17,7 @@ fn replay_from(frames: &[Recorded], elsewhere: impl Fn(&Camera) -> Viewpoint) ->
     for frame in frames {
         let host = Uploaded::new(gpu(), frame);
         gpu().submit(|encoder| {
-            // The depths that points had follow from the cameras.
+            // The denoiser computes the points' former depths from the cameras.
             let camera = elsewhere(&frame.camera);
             let surfaces = Surfaces { camera, previous_depth: None, ..host.surfaces() };
             denoiser.begin_frame(&gpu().device, encoder, &surfaces).unwrap();
@@ -64,10 +64,10 @@ fn the_same_images_give_the_same_result_wherever_the_camera_is() {
     }
 }
 
-/// Matrices in f32 round the eye's place, to steps of 1/32 here. Between those steps nothing is lost.
+/// Matrices in f32 round the eye's place to steps of 1/32 here. An eye on those steps loses nothing.
 #[test]
 fn matrices_in_f32_far_away_lose_no_more_than_they_say() {
-    // A camera that does not turn and moves by whole steps; the wall before it is 3 away.
+    // The camera does not turn and moves by whole steps; the wall before it is 3 away.
     let size = SIZE[0] as usize * SIZE[1] as usize;
     let step = 1.0 / 32.0;
     let slope = 1.0 / (0.4_f32 / 2.0).tan();

@@ -1,4 +1,4 @@
-//! The formats that renderers have, each against what was encoded.
+//! The formats of renderers, each against the encoded values.
 
 use super::{denoiser, upload_bytes};
 use crate::common::gpu::gpu;
@@ -10,7 +10,7 @@ use wgpu::TextureView;
 const SIZE: [u32; 2] = super::SIZE;
 const COUNT: usize = (SIZE[0] * SIZE[1]) as usize;
 
-/// Directions all over the sphere, by a spiral.
+/// Directions all over the sphere, on a spiral.
 fn directions() -> Vec<V> {
     let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     (0..COUNT)
@@ -36,7 +36,7 @@ fn half(x: f64) -> u16 {
     }
     let exponent = x.abs().log2().floor();
     let mantissa = ((x.abs() / exponent.exp2() - 1.0) * 1024.0).round() as u16;
-    // A mantissa that is rounded up to 1024 carries into the exponent.
+    // A mantissa that rounds up to 1024 carries into the exponent.
     let magnitude = (((exponent as i32 + 15) as u16) << 10) + mantissa;
     if x < 0.0 { magnitude | 0x8000 } else { magnitude }
 }
@@ -64,7 +64,7 @@ fn image<const N: usize>(format: TextureFormat, values: &[[f64; N]]) -> TextureV
     upload_bytes(gpu(), SIZE, format, &bytes)
 }
 
-/// Depth, normal and motion as the filter has them.
+/// Depth, normal and motion as the filter reads them.
 fn taken(depth: &TextureView, normal: &TextureView, motion: &TextureView) -> [Vec<[f32; 3]>; 3] {
     let filter = FilterSettings { gradient: Gradient::Off, ..Default::default() };
     let mut denoiser = denoiser(Settings { filter, ..Settings::adaptive() });
@@ -85,7 +85,7 @@ fn normals_of_every_format() {
     let two: Vec<[f64; 2]> = directions.iter().map(|&n| octahedral(n)).collect();
     let depth = image(R32Float, &[[2.0]; COUNT]);
     let motion = image(Rg32Float, &[[0.0; 2]; COUNT]);
-    // Degrees: the filter's own 10 bits, and what the format loses.
+    // Tolerances in degrees: the filter's own 10 bits, and the loss of the format.
     let formats = [
         (image(Rgba32Float, &three), 0.15),
         (image(Rgba16Float, &three), 0.2),

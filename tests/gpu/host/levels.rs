@@ -1,4 +1,4 @@
-//! The three ways to an adaptive α agree with each other, and with the path tracer's own.
+//! The three ways to an adaptive α agree with each other, and with the path tracer's own gradient.
 
 use super::{SIZE, Uploaded, colors, denoiser, difference, recorded, replay, reshading, target, upload, view};
 use crate::common::gpu::gpu;
@@ -11,8 +11,8 @@ fn with(gradient: Gradient, history_ratio: bool) -> Settings {
     Settings { filter, ..Settings::adaptive() }
 }
 
-/// Rounding: what is handed in went through a product and a quotient in f32, and is rounded once more to 18 bits; a path of which
-/// that makes the gradient look changed by 2⁻¹⁷ or so costs as much of a history.
+/// Rounding: the host's light went through a product and a quotient in f32, and is rounded once more to 18 bits. If that makes the
+/// gradient see a change of a path by some 2⁻¹⁷, an equally small part of a history is lost.
 const ROUNDING: [f64; 2] = [5e-3, 1e-4];
 
 fn assert_same(a: &[Rgb], b: &[Rgb], allowed: [f64; 2], what: &str) {
@@ -24,19 +24,19 @@ fn assert_same(a: &[Rgb], b: &[Rgb], allowed: [f64; 2], what: &str) {
 fn level_2_is_the_path_tracers_own_gradient() {
     let frames = recorded(Settings::adaptive());
     let images = replay(&mut denoiser(reshading()), &frames);
-    // A host's noise may be the same in every frame, the path tracer's is not: where two samples agree to a thousandth by chance, a
-    // host's pixel takes its neighbours' variance.
+    // A host may repeat the same noise in every frame; the path tracer does not. Where two samples agree to a thousandth by chance, the
+    // pixel of a host takes its neighbours' variance.
     let allowed = [0.03, ROUNDING[1]];
     for (image, frame) in images.iter().zip(&frames) {
         assert_same(image, &frame.denoised, allowed, &format!("frame {}", frame.index));
     }
-    // It is the gradient that does it: without, the lamp stays on in the history.
+    // The gradient makes the difference: without it, the lamp stays on in the history.
     let blind = replay(&mut denoiser(with(Gradient::Off, false)), &frames);
     let last = frames.len() - 1;
     assert!(difference(&blind[last], &frames[last].denoised)[1] > 0.5, "nothing changed in this scene");
 }
 
-/// Pairs as the re-shaded paths of a frame give them, where `begin_frame` says that there are some.
+/// Pairs from the re-shaded paths of a frame, where `begin_frame` asks for them.
 fn pairs(repeats: &TextureView, now: &[Rgb], before: &[Rgb]) -> [Vec<Rgb>; 2] {
     let words: Vec<u32> = bytemuck::pod_collect_to_vec(&gpu().read(repeats.texture()));
     let mut images = [vec![[-1.0; 3]; now.len()], vec![[-1.0; 3]; now.len()]];
@@ -98,7 +98,7 @@ fn level_0_with_the_same_lambda_does_the_same() {
         let [current, previous] = images.map(|image| upload(gpu(), SIZE, &image));
         gpu().submit(|encoder| {
             found.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
-            // Not in place: then nothing but λ comes of the pairs.
+            // With `in_place: false`, the pairs affect λ alone.
             let pairs = Some(Pairs { current: &current, previous: &previous, in_place: false });
             found.denoise(&gpu().device, encoder, &Shading { pairs, ..host.shading(&a) }).unwrap();
         });
@@ -122,7 +122,7 @@ fn level_0_with_the_same_lambda_does_the_same() {
 
 #[test]
 fn lambda_may_come_at_a_part_of_the_resolution() {
-    // Left third keeps all, middle half, right nothing: as one texel for 16 pixels.
+    // The left third keeps all, the middle half, the right nothing: one texel stands for 16 pixels.
     let frames = recorded(Settings::adaptive());
     let coarse = upload(gpu(), [3, 3], &[0.0, 0.5, 1.0, 0.0, 0.5, 1.0, 0.0, 0.5, 1.0].map(|l| [l]));
     let target = target();
@@ -140,16 +140,16 @@ fn lambda_may_come_at_a_part_of_the_resolution() {
     let lengths = [&mut told, &mut plain].map(|denoiser| view(denoiser, View::HistoryLength));
     let mut sums = [[0.0_f32; 3]; 3];
     for (i, (told, plain)) in lengths[0].iter().zip(&lengths[1]).enumerate() {
-        // Not where there is no history, as at the edge that the camera uncovers.
+        // Pixels without a history are skipped, as at the edge that the camera uncovers.
         if plain[0] > 1.0 {
             let sum = &mut sums[i % SIZE[0] as usize / 16];
             *sum = [sum[0] + told[0], sum[1] + plain[0], sum[2] + 1.0];
         }
     }
     let [all, half, nothing] = sums.map(|[told, plain, count]| [told / count, plain / count]);
-    // What moves over from the middle has lost some.
+    // Pixels that move over from the middle have lost some history.
     assert!(all[0] > 0.8 * all[1], "{all:?}: nothing was to be dropped");
-    // n is n·(1 − ½)^3.5 + 1 in the long run.
+    // In the long run, n = n·(1 − ½)^3.5 + 1.
     assert!((half[0] - 1.097).abs() < 0.05, "{half:?}: all but a tenth was to be dropped");
     assert_eq!(nothing[0], 1.0, "all was to be dropped");
 }

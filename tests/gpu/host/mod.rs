@@ -23,7 +23,7 @@ use wgpu::{TextureFormat, TextureView};
 
 const SIZE: [u32; 2] = [48, 36];
 
-/// One frame of the path tracer as a host would have it, and what the denoiser made of it.
+/// One frame of the path tracer in the form of a host's frame, and the denoiser's result.
 #[derive(Clone)]
 struct Recorded {
     index: u32,
@@ -33,20 +33,20 @@ struct Recorded {
     motion: Vec<[f32; 2]>,
     previous_depth: Vec<f32>,
     albedo: Vec<Rgb>,
-    /// Noisy, without albedo.
+    /// Noisy light without albedo.
     light: Vec<Rgb>,
     denoised: Vec<Rgb>,
 }
 
-/// The default, with paths that the host repeats.
+/// The default settings, with paths that the host repeats.
 fn reshading() -> Settings {
     let filter = FilterSettings { gradient: Gradient::Reshade, ..Default::default() };
     Settings { filter, ..Settings::adaptive() }
 }
 
-/// Frames of the box of Cornell about the one in which its lamp goes out, seen by a camera that moves and sees no lamp.
+/// Frames of the Cornell box around the one in which its lamp goes out. The camera moves and does not see the lamp.
 fn recorded(settings: Settings) -> Vec<Recorded> {
-    // The host does not say in which frames nothing changed.
+    // A host does not say in which frames nothing changed, so nothing may be left out.
     let mut stage = Stage::built_in("cornell", "blink", SIZE, settings).leaving_nothing_out();
     (stage.index..10)
         .map(|i| {
@@ -131,7 +131,7 @@ fn view(denoiser: &mut Denoiser, view: View) -> Vec<Rgb> {
     colors(&target)
 }
 
-/// What the denoiser makes of frames, in order.
+/// The denoised frames, in order.
 fn replay(denoiser: &mut Denoiser, frames: &[Recorded]) -> Vec<Vec<Rgb>> {
     let target = target();
     let mut images = Vec::new();

@@ -1,4 +1,4 @@
-//! A host whose camera is orthographic: planes at any angle are one surface, and are found again when the camera moves.
+//! A host with an orthographic camera: a plane at any angle is one surface, and is found again when the camera moves.
 
 use super::{SIZE, denoiser, target, upload, view};
 use crate::common::gpu::gpu;
@@ -8,7 +8,7 @@ use asvgf::{FilterSettings, Gradient, Matrices, Settings, Shading, Surfaces, Vie
 const HALF: [f32; 2] = [2.0, 1.5];
 const EYE: f32 = 5.0;
 
-/// Looks along −Z from (x, 0, 5).
+/// A camera that looks along −Z from (x, 0, 5).
 fn camera(x: f32) -> Matrices {
     let view = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [-x, 0.0, -EYE, 1.0]];
     // Depths of 0…50 become 0…1.
@@ -17,12 +17,12 @@ fn camera(x: f32) -> Matrices {
     Matrices { view, projection, jitter: [0.0; 2] }
 }
 
-/// Two planes that meet at world x = 0, one steep, one less so: depth and normal under a pixel.
+/// Depth and normal under a pixel, of two planes that meet at world x = 0, one steeper than the other.
 fn seen(pixel: usize, x: f32) -> (f32, Rgb) {
     let [column, row] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]].map(|i| i as f32 + 0.5);
     let at = x + (2.0 * column / SIZE[0] as f32 - 1.0) * HALF[0];
     let up = (1.0 - 2.0 * row / SIZE[1] as f32) * HALF[1];
-    // z = slope·x + 0.5·y
+    // The planes are z = slope·x + 0.5·y.
     let slope = if at < 0.0 { 2.0 } else { -0.5 };
     let length = (slope * slope + 0.25 + 1.0_f32).sqrt();
     (EYE - slope * at - 0.5 * up, [-slope / length, -0.5 / length, 1.0 / length])
@@ -42,7 +42,7 @@ fn planes_are_filtered_and_followed_in_an_orthographic_view() {
     let filter = FilterSettings { gradient: Gradient::Off, ..Default::default() };
     let mut denoiser = denoiser(Settings { filter, ..Settings::adaptive() });
     let target = target();
-    // A third of a pixel to the right in each frame.
+    // The camera moves a third of a pixel to the right in each frame.
     let step = 2.0 * HALF[0] / SIZE[0] as f32 / 3.0;
     let frames = 8;
     for index in 0..frames {
@@ -69,7 +69,7 @@ fn planes_are_filtered_and_followed_in_an_orthographic_view() {
     let deviation = (image.iter().map(|c| f64::from(c[0] - 1.0).powi(2)).sum::<f64>() / count as f64).sqrt();
     println!("noise of 1 becomes {deviation:.4}; a mean of 8 alone has 0.35");
     assert!((mean(&image) - 1.0).abs() < 0.05 && deviation < 0.12, "{deviation}");
-    // Where a point at rest was, by the cameras alone: the motion is right everywhere.
+    // Points at rest follow from the cameras alone, so the motion is right everywhere.
     let error = view(&mut denoiser, View::MotionError);
     assert!(error.iter().all(|c| c[0].abs() < 0.01), "{:?}", error.iter().map(|c| c[0]).fold(0.0, f32::max));
 }

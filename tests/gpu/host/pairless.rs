@@ -1,4 +1,4 @@
-//! A host that hands in an image and its G-buffer, and no pairs.
+//! A host that hands in an image and its G-buffer, without pairs.
 
 use super::{SIZE, Uploaded, denoiser, difference, recorded, replay, reshading, target, upload, view};
 use crate::common::gpu::gpu;
@@ -15,11 +15,11 @@ fn a_lamp_that_goes_out_is_followed_without_pairs() {
     let frames = recorded(Settings::adaptive());
     let [adaptive, constant] =
         [Settings::adaptive(), Settings::adaptive().constant(0.1)].map(|s| replay(&mut denoiser(s), &frames));
-    // It went out at least two frames before the last one.
+    // The lamp went out at least two frames before the last one.
     let last = frames.len() - 1;
     let truth = mean(&frames[last].denoised);
     let off = |image: &[Rgb]| (mean(image) / truth - 1.0).abs();
-    // The renderers' images differ by their noise, too.
+    // The renderers' images also differ by their noise.
     assert!(off(&adaptive[last]) < 0.25, "{} of the light is left or missing", off(&adaptive[last]));
     assert!(off(&constant[last]) > 2.0, "the lamp is nothing to lag behind");
 }
@@ -27,7 +27,7 @@ fn a_lamp_that_goes_out_is_followed_without_pairs() {
 #[test]
 fn a_still_scene_keeps_its_history() {
     let frames: Vec<_> = recorded(Settings::adaptive());
-    // The frames before the lamp goes out, again and again, each with noise of its own.
+    // The sequence repeats the frames before the lamp goes out, each with noise of its own.
     let mut stage = Stage::built_in("cornell", "static", SIZE, Settings::adaptive()).leaving_nothing_out();
     (stage.camera, stage.index) = (Some(frames[0].camera), 0);
     let reference = {
@@ -54,7 +54,7 @@ fn a_still_scene_keeps_its_history() {
 #[test]
 fn what_a_frame_brings_is_used() {
     let frames = recorded(Settings::adaptive());
-    // −1 says that there is no pair.
+    // −1 marks a pixel without a pair.
     let none = upload(gpu(), SIZE, &vec![[-1.0_f32; 3]; frames[0].light.len()]);
     let half = upload(gpu(), SIZE, &vec![[0.5_f32]; frames[0].light.len()]);
     let run = |gradient: Gradient, pairs: bool, lambda: bool| {

@@ -5,13 +5,13 @@ use crate::common::gpu::gpu;
 use crate::common::statistics::Rgb;
 use asvgf::{Mode, Settings, Shading};
 
-/// A bright rectangle of emission.
+/// An emission image with a bright rectangle.
 fn emission() -> Vec<Rgb> {
     let inside = |i: u32| (10..20).contains(&(i % SIZE[0])) && (5..15).contains(&(i / SIZE[0]));
     (0..SIZE[0] * SIZE[1]).map(|i| if inside(i) { [4.0, 2.0, 0.5] } else { [0.0; 3] }).collect()
 }
 
-/// Light times albedo plus emission.
+/// Full radiance: light times albedo plus emission.
 fn full(frame: &Recorded, emission: &[Rgb]) -> Vec<Rgb> {
     let pixel = |i: usize| [0, 1, 2].map(|c| frame.light[i][c] * frame.albedo[i][c].max(1e-3) + emission[i][c]);
     (0..emission.len()).map(pixel).collect()
@@ -36,10 +36,10 @@ fn the_full_image_and_its_parts_are_denoised_alike() {
             parts.denoise(&gpu().device, encoder, &shading).unwrap();
         });
         let found = difference(&colors(&a), &colors(&b));
-        // What is left of the light beside an emission 100 times as bright has lost two digits; and albedos are rounded to f16.
+        // Beside an emission 100 times as bright, the light loses two digits when the emission is subtracted. Albedos are rounded to f16.
         assert!(found[0] < 2e-2 && found[1] < 1e-3, "frame {}: {found:?}", frame.index);
     }
-    // Emission bypasses the filter: it is as sharp as it came.
+    // Emission bypasses the filter, so it stays as sharp as the input.
     let dark = replay(&mut denoiser(reshading()), &frames);
     for (i, lit) in colors(&b).iter().enumerate() {
         for c in 0..3 {
@@ -83,7 +83,7 @@ fn the_modes_without_a_filter_show_the_samples_and_their_mean() {
     for (image, frame) in noisy.iter().zip(&frames) {
         assert!(difference(image, &full(frame, &none))[0] < 1e-2, "frame {}", frame.index);
     }
-    // A mean is one of frames that are seen alike.
+    // A mean needs frames with the same camera.
     let still: Vec<Recorded> = frames[..4].iter().map(|f| Recorded { camera: frames[0].camera, ..f.clone() }).collect();
     let means = replay(&mut denoiser(Settings { mode: Mode::Reference, ..Settings::adaptive() }), &still);
     let mean: Vec<Rgb> = (0..none.len())
@@ -94,7 +94,7 @@ fn the_modes_without_a_filter_show_the_samples_and_their_mean() {
     assert_eq!(moving, noisy, "the camera moves, so each frame is a mean of one");
 }
 
-/// Ink that reflects nothing, between paper that does, borrows next to no light from it, and takes none.
+/// Ink that reflects nothing, between paper that does, borrows next to no light from the paper, and takes none away.
 #[test]
 fn black_texels_stay_black() {
     let frames = recorded(Settings::adaptive());
@@ -121,7 +121,7 @@ fn black_texels_stay_black() {
         };
         let (black, paper, expected) = (mean(&images[0], true), mean(&images[0], false), mean(&images[1], false));
         println!("frame {}: ink {black:.5}, paper {paper:.4}, without ink {expected:.4}", frame.index);
-        // Where ink has no light either, it is shown black.
+        // Ink without light is shown black.
         assert!((paper / expected - 1.0).abs() < 0.06, "frame {}: paper of {paper}, not {expected}", frame.index);
         assert!(black < 0.02 * expected, "frame {}: ink of {black} on paper of {paper}", frame.index);
     }

@@ -1,4 +1,4 @@
-//! How a host records its frames makes no difference, and what it changes between them begins anew.
+//! The way in which a host records its frames makes no difference, and a change between frames starts a new history.
 
 use super::{Recorded, SIZE, Uploaded, colors, denoiser, difference, recorded, replay, reshading, target, upload};
 use crate::common::gpu::{Gpu, gpu};
@@ -23,7 +23,7 @@ fn three_frames_and_two_denoisers_may_share_an_encoder() {
         let hosts: Vec<Uploaded> = frames[3 * three..3 * three + 3].iter().map(|f| Uploaded::new(gpu(), f)).collect();
         gpu().submit(|encoder| {
             for host in &hosts {
-                // One inside the other's frame.
+                // Record one frame inside the other.
                 one.begin_frame(&gpu().device, encoder, &host.surfaces()).unwrap();
                 record(&mut other, gpu(), encoder, host, &b);
                 one.denoise(&gpu().device, encoder, &host.shading(&a)).unwrap();
@@ -99,7 +99,7 @@ fn a_target_that_is_the_radiance_is_timed_too() {
     }
 }
 
-/// A host that hands in an albedo from some frame on, or no longer: what was filtered before is of another kind.
+/// A host that starts or stops handing in an albedo changes the kind of light, so the old history does not fit.
 #[test]
 fn light_of_another_kind_begins_anew() {
     let frames = recorded(Settings::adaptive());
@@ -126,7 +126,7 @@ fn light_of_another_kind_begins_anew() {
             let expected = frame(&mut fresh, &frames[3], !first_with);
             let found = difference(&changed, &expected);
             println!("{gradient:?}, albedo first: {first_with}: {found:?}");
-            // One pixel in nine repeats a path of the last frame: it has another sample, or none, and is filled from around.
+            // One pixel in nine repeats a path of the last frame. It has another sample or none, and is filled from its neighbours.
             let allowed = if gradient == Gradient::Off { [0.0; 2] } else { [1.0, 0.1] };
             assert!(found[0] <= allowed[0] && found[1] <= allowed[1], "{gradient:?}, {first_with}: {found:?}");
         }
@@ -137,7 +137,7 @@ fn product(a: Rgb, b: Rgb) -> Rgb {
     [0, 1, 2].map(|c| a[c] * b[c].max(1e-3))
 }
 
-/// The images of frames 4…7 after something was done to a denoiser that had frames 0…3.
+/// The images of frames 4…7, after `what` was done to a denoiser that had frames 0…3.
 fn after(what: impl FnOnce(&mut Denoiser)) -> Vec<Vec<Rgb>> {
     let frames = recorded(Settings::adaptive());
     let mut denoiser = denoiser(reshading());
@@ -160,7 +160,7 @@ fn what_begins_anew_and_what_does_not() {
         }),
         fresh
     );
-    // A frame that is begun and never finished, or begun twice, leaves no trace.
+    // A frame that is begun and never finished leaves no trace, nor does one that is begun twice.
     let begin = |d: &mut Denoiser, frame: usize| {
         let host = Uploaded::new(gpu(), &frames[frame]);
         gpu().submit(|encoder| d.begin_frame(&gpu().device, encoder, &host.surfaces())).unwrap();
@@ -173,7 +173,7 @@ fn what_begins_anew_and_what_does_not() {
         }),
         continued
     );
-    // Nor do settings that are changed between the two calls and back.
+    // Settings that are changed between the two calls and back leave no trace either.
     assert_eq!(
         after(|d| {
             begin(d, 4);

@@ -12,7 +12,7 @@ fn with(gradient: Gradient) -> Settings {
     Settings { filter: FilterSettings { gradient, ..Default::default() }, ..Settings::adaptive() }
 }
 
-/// A view that nobody has written.
+/// A view that has never been written.
 fn blank(size: [u32; 2], format: TextureFormat) -> TextureView {
     gpu().texture(size, format, TextureUsages::TEXTURE_BINDING).create_view(&Default::default())
 }
@@ -21,7 +21,7 @@ fn unreadable(format: TextureFormat) -> TextureView {
     gpu().texture(SIZE, format, TextureUsages::COPY_DST).create_view(&Default::default())
 }
 
-/// Whether an error is the one that is due.
+/// Checks that an error is the expected one.
 type Due = Box<dyn Fn(&Error) -> bool>;
 
 /// Views of the wrong format, size, usage and shape.
@@ -117,7 +117,7 @@ fn every_view_is_checked_and_no_mistake_costs_history() {
     let error =
         gpu().submit(|e| tried.show(&gpu().device, e, View::Depth, ViewOptions::default(), &target)).unwrap_err();
     assert!(matches!(error, Error::NoView { .. }), "{error}");
-    // After all that the frame is what it would have been.
+    // After all refusals, the frame is the same as without them.
     gpu().submit(|e| tried.denoise(&gpu().device, e, &host.shading(&target))).unwrap();
     let images = replay(&mut denoiser(reshading()), &frames[..4]);
     assert_eq!(colors(&target), images[3]);

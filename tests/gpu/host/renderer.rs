@@ -1,4 +1,4 @@
-//! The example's renderer: what its shader is told to repeat, it repeats.
+//! The example's renderer: it repeats the paths that its shader is told to repeat.
 
 use super::{colors, difference, reshading};
 use crate::common::gpu::gpu;
@@ -18,7 +18,7 @@ struct Stage {
     denoiser: Denoiser,
     target: TextureView,
     index: u32,
-    /// Handed in instead of the renderer's own.
+    /// Motion that replaces the renderer's own.
     motion: Option<TextureView>,
 }
 
@@ -56,7 +56,7 @@ impl Stage {
         self.index += 1;
     }
 
-    /// As [`Stage::frame`], with what an rg16float motion would hold: the same frame is drawn once more to find it.
+    /// Does the same as [`Stage::frame`] with the motion in rg16float: it draws the same frame once more to find the motion.
     fn frame_in_16_bits(&mut self, now: &Moment, before: &Moment) {
         let r = &self.renderer;
         gpu().submit(|encoder| r.draw(encoder, &r.scene(now, before)));
@@ -78,7 +78,7 @@ impl Stage {
     }
 }
 
-/// The camera of a frame, and nothing else that moves.
+/// A moment in which only the camera moves.
 fn walking(frame: u32) -> Moment {
     Moment { eye: Moment::at(frame).eye, ..Moment::at(0) }
 }
@@ -92,7 +92,7 @@ fn nothing_changed_is_exactly_nothing_whether_the_camera_moves_or_not() {
             stage.frame(&at(i), &at(i.saturating_sub(1)));
             assert_eq!(stage.largest(View::Lambda), 0.0, "frame {i}, walking: {walks}");
         }
-        // In twelve frames each pixel repeats a path at least once, and is not a new sample then.
+        // In twelve frames, each pixel repeats a path at least once, and is not a new sample then.
         let longest = stage.largest(View::HistoryLength);
         assert!((10.0..12.0).contains(&longest), "walking: {walks}, {longest}");
     }
@@ -166,7 +166,7 @@ fn the_sky_is_shown_as_it_is() {
     assert!(sky.len() > 200, "there is some sky");
     for c in sky {
         for (found, written) in c.into_iter().zip([0.3_f32, 0.45, 0.7]) {
-            // Through f16 and 18 bits.
+            // The value went through f16 and 18 bits.
             assert!((found - written).abs() < 1e-3 * written, "{c:?}");
         }
     }
@@ -177,14 +177,14 @@ fn a_wrong_motion_is_seen() {
     let mut stage = Stage::new();
     (0..3_u32).for_each(|i| stage.frame(&walking(10 * i), &walking(10 * i.saturating_sub(1))));
     assert!(stage.largest(View::Motion) > 1.0, "the camera moves");
-    // Kept in steps of 1/256.
+    // Motion is stored in steps of 1/256.
     assert!(stage.largest(View::MotionError) < 2.1e-3, "{}", stage.largest(View::MotionError));
-    // The other sign.
+    // Motion with the wrong sign is noticed.
     let wrong: Vec<[f32; 2]> = stage.view(View::Motion).iter().map(|m| [-m[0], -m[1]]).collect();
     stage.motion = Some(super::upload(gpu(), SIZE, &wrong));
     stage.frame(&walking(30), &walking(20));
     assert!(stage.largest(View::MotionError) > 1.0);
-    // A ball that rolls differs, and nothing else.
+    // A rolling ball differs, and nothing else.
     let mut rolling = Stage::new();
     let at = |i: u32| Moment { ball: Moment::at(10 * i).ball, ..walking(10 * i) };
     (0..3_u32).for_each(|i| rolling.frame(&at(i), &at(i.saturating_sub(1))));

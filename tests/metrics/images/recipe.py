@@ -1,4 +1,4 @@
-"""How the images here were made, and what other programs say about them.
+"""Makes the images here, and prints the numbers that other programs give for them.
 
 needs: numpy, Pillow, scikit-image 0.26, flip-evaluator 1.7
 """
