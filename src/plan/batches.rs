@@ -91,7 +91,7 @@ mod tests {
             )
         };
         assert!(of_run(32).count() > of_run(1).count(), "texels of a cell are rounds too");
-        // Roulette ends paths long before so many bounces.
+        // Roulette ends paths long before this many bounces.
         assert_eq!(batches(1024, 100, 12), batches(1024, 1024, 12));
     }
 }

@@ -98,7 +98,7 @@ fn varied(base: &Settings, setting: &Setting) -> Vec<Settings> {
     }
 }
 
-/// The shaders that several kinds of frames run: passes with what is compiled into them.
+/// The shaders that several kinds of frames run: each pass with its features.
 fn shaders(settings: &Settings) -> Vec<BTreeSet<(&'static str, Features)>> {
     let target = TextureFormat::Rgba16Float;
     let inputs = [[false, false], [true, false], [false, true]].map(|[pairs, lambda]| HostInputs {

@@ -8,10 +8,10 @@ settings! {
     /// re-shading, the filter then drops the history that they contradict.
     #[derive(Eq)]
     pub struct TracerSettings in tracer {
-        /// Paths per pixel and frame. Higher: less noise, proportionally slower. Lower: faster, noisier. The driver might take one long
-        /// dispatch for hung, so many paths are traced in several dispatches; going from one dispatch to several compiles. Systems that
+        /// Paths per pixel and frame. Higher: less noise, proportionally slower. Lower: faster, noisier. The driver might end one long
+        /// dispatch as hung, so many paths are traced in several dispatches; going from one dispatch to several compiles. Systems that
         /// time submissions instead of dispatches need a host that submits in between:
-        /// [`Denoiser::render_stepwise`](crate::Denoiser::render_stepwise).
+        /// [`Denoiser::stepwise`](crate::Denoiser::stepwise).
         samples: u32 { default: 1, range: 1..=65536, unit: "samples per pixel", useful: 1..=16, compiles: Sometimes }
 
         /// Reflections after the first surface; 0 is direct light only. Higher: brighter corners, slower. Lower: faster, darker corners.
