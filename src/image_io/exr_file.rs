@@ -335,7 +335,7 @@ impl ExrFile {
     }
 }
 
-/// Number of a compression that is newer than the reader, which takes such a file for damaged.
+/// Number of a compression that is newer than the reader, which reports such a file as damaged.
 fn unknown_compression(bytes: &[u8]) -> Option<u8> {
     const ATTRIBUTE: &[u8] = b"compression\0compression\0\x01\0\0\0";
     const DWAB: u8 = 9;

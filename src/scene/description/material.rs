@@ -25,7 +25,7 @@ pub struct Material {
     pub alpha: Alpha,
     /// True if the back face emits too. Reflection is always two-sided.
     pub double_sided: bool,
-    /// True if the base colour is shown as it is, without any light (KHR_materials_unlit). Such a surface lights nothing.
+    /// True if the base colour is shown without any light (KHR_materials_unlit). Such a surface lights nothing.
     pub unlit: bool,
     /// Normal-incidence reflectance (F₀) of the dielectric part, each 0…1: 0.04 for an index of refraction of 1.5, 0 for a
     /// purely Lambertian surface.

@@ -21,7 +21,7 @@ use crate::plan::SceneContents;
 use crate::scene::description::{Environment, Image, Pose, Scene, SceneError};
 use glam::DVec3;
 
-/// Most slots of the traversal's stack. Trees that obvhs builds over real geometry need far fewer.
+/// Maximum number of slots of the traversal's stack. Trees that obvhs builds over real geometry need far fewer.
 const LARGEST_STACK: u32 = 64;
 
 /// All data of a scene.

@@ -3,8 +3,8 @@
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Mat4};
 
-/// Most triangles that are tested one by one. On an adapter that is the CPU this is faster than a tree: at 48 triangles, three times
-/// as fast. There is a limit because shaders grow with each triangle.
+/// Maximum number of triangles that are tested one by one. On an adapter that is the CPU this is faster than a tree: at 48 triangles,
+/// three times as fast. There is a limit because shaders grow with each triangle.
 pub(crate) const MOST: usize = 64;
 
 /// Number of triangles that are tested together.

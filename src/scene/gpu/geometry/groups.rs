@@ -5,8 +5,8 @@ use crate::scene::description::{Mesh, Scene, WorldMatrix};
 use glam::{DMat3, DMat4, DVec3, Vec3};
 use std::collections::BTreeMap;
 
-/// Most triangles in all copies of a static mesh that is used several times and still copied into the static geometry. A copy saves
-/// the second level of trees.
+/// Maximum number of triangles in all copies of a static mesh that is used several times and still copied into the static geometry. A
+/// copy saves the second level of trees.
 const COPIED_TRIANGLES: usize = 4096;
 
 /// Geometry that shares a tree, in the tree's space.

@@ -34,7 +34,7 @@ impl Instance {
     }
 }
 
-/// Most nodes of a top level over this many instances: each inner node joins two.
+/// Maximum number of nodes of a top level over this many instances: each inner node joins two.
 pub(crate) fn top_level_nodes(instances: usize) -> usize {
     instances.saturating_sub(1).max(1)
 }

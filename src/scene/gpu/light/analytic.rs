@@ -4,7 +4,7 @@ use super::luminance::luminance;
 use super::record::GpuLight;
 use bytemuck::{Pod, Zeroable};
 
-/// Most lights that the gradient evaluates. The strongest are kept.
+/// Maximum number of lights that the gradient evaluates. The strongest are kept.
 const MOST: usize = 64;
 
 /// `AnalyticLight` of shaders/shared/blinn_phong.wgsl.

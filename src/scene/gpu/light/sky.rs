@@ -13,7 +13,7 @@ use crate::scene::gpu::memory::folded::Texel;
 use std::f64::consts::PI;
 use wgpu::Limits;
 
-/// Most cells of a picture: 16 MiB of table. A cell has 8 texels in a picture of 4096 × 2048, and 32 in one of 8192 × 4096.
+/// Maximum number of cells of a picture: 16 MiB of table. A cell has 8 texels in a picture of 4096 × 2048, and 32 in one of 8192 × 4096.
 const MOST_CELLS: u32 = 1 << 20;
 
 /// The division of a picture into cells, as shaders/shared/light.wgsl counts them. With powers of two, divisions are shifts.
@@ -28,7 +28,7 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// The finest division into at most so many cells.
+    /// The finest division into at most `most` cells.
     fn of(width: u32, height: u32, most: u32) -> Self {
         let log2 = |n: u32| n.next_power_of_two().ilog2();
         let of_run = |run: u32| {

@@ -6,10 +6,10 @@ use wgpu::{
     TextureViewDimension,
 };
 
-/// Most bytes of one write.
+/// Maximum number of bytes of one write.
 pub(crate) const PIECE: usize = 16 << 20;
 
-/// Most bytes of copies that wait for a submission.
+/// Maximum number of bytes of copies that wait for a submission.
 const WAITING: usize = 64 << 20;
 
 /// A texture for texel fetches, and its view.

@@ -7,10 +7,10 @@ use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimi
 use obvhs::{Boundable, BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
 use std::collections::HashMap;
 
-/// Most triangles in a leaf. Up to here, a test of each is cheaper than another level.
+/// Maximum number of triangles in a leaf. Up to here, a test of each is cheaper than another level.
 const LEAF_TRIANGLES: u32 = 2;
 
-/// Most equal boxes for which obvhs builds the tree. It merges neighbours pair by pair, which takes quadratic time
+/// Maximum number of equal boxes for which obvhs builds the tree. It merges neighbours pair by pair, which takes quadratic time
 /// if all are equally near.
 const CROWD: usize = 1000;
 
@@ -68,7 +68,7 @@ fn unlike(Aabb { min, max }: Aabb, number: u32) -> Aabb {
     Aabb { min: min - most * parts(0), max: max + most * parts(3) }
 }
 
-/// Most levels of a tree of obvhs. A deeper one is replaced by [`halve`]. Real geometry needs some thirty levels, and a traversal's
+/// Maximum number of levels of a tree of obvhs. A deeper one is replaced by [`halve`]. Real geometry needs some thirty levels, and a traversal's
 /// stack holds 64.
 pub(crate) const DEEPEST: u32 = 48;
 
@@ -136,7 +136,7 @@ mod tests {
                 }
             }
         }
-        // Each is seen once; a tree of one leaf has it on both sides of its root.
+        // Each primitive is seen once; a tree of one leaf has it on both sides of its root.
         assert!(seen.iter().all(|&s| s == seen[0] && s <= 2));
     }
 

@@ -7,9 +7,9 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::image_io::read_file;
 
-/// Most entries that are listed, because a scene may lie in a folder with all the files of a person.
+/// Maximum number of entries that are listed, because a scene may lie in a folder with all the files of a person.
 const MAX_LISTED: usize = 20_000;
-/// Most levels of folders in which files are looked for.
+/// Maximum number of levels of folders in which files are looked for.
 const MAX_DEPTH: usize = 8;
 
 /// All files that an importer may read.

@@ -46,7 +46,7 @@ impl<'a> Folder<'a> {
     #[cfg(feature = "gltf")]
     pub fn locate_uri(&self, uri: &str) -> Result<Located, String> {
         let text = |bytes: Vec<u8>| {
-            // Names in an unknown code page are taken for Latin-1.
+            // Names in an unknown code page are read as Latin-1.
             let latin =
                 |error: std::string::FromUtf8Error| error.into_bytes().iter().map(|&byte| char::from(byte)).collect();
             String::from_utf8(bytes).unwrap_or_else(latin)

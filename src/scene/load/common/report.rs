@@ -38,7 +38,7 @@ impl Fault {
     }
 }
 
-/// Most warnings that are kept in detail, because every element of a file may have a fault.
+/// Maximum number of warnings that are kept in detail, because every element of a file may have a fault.
 const DETAILS: usize = 1 << 16;
 
 /// Collects the warnings about a file and completes its errors.

@@ -22,7 +22,7 @@ impl Environment {
     ///   and `PRIMARIES`.
     /// * EXR holds linear radiance: colours, or luminance and chroma. Chromaticities are converted to Rec. 709, and the data window is
     ///   placed in the display window.
-    /// * PNG, JPEG, TGA, BMP, TIFF and WebP are taken for sRGB with 1 as the largest radiance, floating-point TIFF for linear.
+    /// * PNG, JPEG, TGA, BMP, TIFF and WebP count as sRGB with 1 as the largest radiance, floating-point TIFF as linear.
     ///
     /// Negative channels and NaN become 0, infinity becomes 65504, each with a warning that gives their number.
     ///

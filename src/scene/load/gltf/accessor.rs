@@ -8,7 +8,7 @@ use gltf::json::{Index, buffer};
 use super::source::Source;
 use crate::scene::load::common::report::Fault;
 
-/// Most elements of an accessor without data of its own, which costs a file nothing.
+/// Maximum number of elements of an accessor without data of its own, which costs a file nothing.
 const MAX_ZEROS: u64 = 1 << 24;
 
 /// The component types of indices.

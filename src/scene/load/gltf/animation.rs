@@ -12,7 +12,7 @@ use super::source::{Source, lookup};
 use crate::scene::description::{Animation, Channel, Interpolation, Scene, Target};
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most values of all channels of one file. The size of the file does not bound them, because channels may share accessors.
+/// Maximum number of values of all channels of one file. The size of the file does not bound them, because channels may share accessors.
 const MAX_VALUES: usize = 1 << 25;
 
 /// Reads all animations, which keep their indices. Channels of nodes outside the scene are left out.

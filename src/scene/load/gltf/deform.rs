@@ -15,7 +15,7 @@ use super::source::Source;
 use crate::scene::description::Mesh;
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most sets of four joints of a vertex.
+/// Maximum number of sets of four joints of a vertex.
 const MOST_SETS: u32 = 8;
 
 /// The shape in which a node draws its mesh.

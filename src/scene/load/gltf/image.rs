@@ -16,7 +16,7 @@ use crate::scene::load::common::decode::decode;
 use crate::scene::load::common::folder::Located;
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most texels of all images of one file (4 GiB).
+/// Maximum number of texels of all images of one file (4 GiB).
 const MAX_TEXELS: usize = 1 << 30;
 
 /// The images of a file that were requested.

@@ -10,8 +10,8 @@ use super::source::Source;
 use crate::scene::description::Transform;
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most instances of one file. The size of the file does not bound them: attributes without data cost nothing, and nodes may share
-/// attributes.
+/// Maximum number of instances of one file. The size of the file does not bound them: attributes without data cost nothing, and nodes
+/// may share attributes.
 const MOST: usize = 1 << 20;
 
 /// The placements of the instances of a node, relative to it. `None` for a node that is placed once.

@@ -11,7 +11,7 @@ use serde_path_to_error::{Path, Segment, deserialize};
 
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most values that are removed from one element before the element itself is removed.
+/// Maximum number of values that are removed from one element before the element itself is removed.
 const MOST: usize = 256;
 
 /// The root of a file whose JSON is not that of glTF 2.0 everywhere.

@@ -16,10 +16,12 @@ use super::source::Source;
 use crate::scene::description::{Material, Mesh, Scene};
 use crate::scene::load::common::report::{Fault, Report};
 
-/// Most triangles of all meshes of one file. The size of the file does not bound them, because primitives may share an index buffer.
+/// Maximum number of triangles of all meshes of one file. The size of the file does not bound them, because primitives may share an
+/// index buffer.
 const MAX_TRIANGLES: usize = 1 << 26;
 
-/// Most vertices of all meshes of one file. The size of the file does not bound them, because accessors without data cost nothing.
+/// Maximum number of vertices of all meshes of one file. The size of the file does not bound them, because accessors without data
+/// cost nothing.
 const MAX_VERTICES: usize = 1 << 27;
 
 /// The meshes of a file that were requested.

@@ -53,7 +53,7 @@ fn word<'a>(tidy: &mut String, rest: &'a str) -> &'a str {
 }
 
 /// A string from its first quotation mark to its last. Control characters are escaped. If a backslash escapes nothing, all backslashes of
-/// the string are taken for those of a path.
+/// the string count as those of a path.
 fn string<'a>(tidy: &mut String, rest: &'a str) -> &'a str {
     let mut characters = rest.char_indices().skip(1);
     let mut escapes = true;

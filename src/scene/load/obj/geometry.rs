@@ -10,7 +10,7 @@ use super::text::{MRGB, Statement, numbers, precise, shortened};
 use super::vectors::Vectors;
 use crate::scene::load::common::report::Report;
 
-/// Most unknown keywords that get a warning.
+/// Maximum number of unknown keywords that get a warning.
 const MAX_UNKNOWN: usize = 16;
 
 /// A name by which faces refer to a material.

@@ -18,7 +18,7 @@ use super::ring::{cross, insert_left_out, is_convex, is_tangled};
 
 /// Polygons with more corners are examined before they are clipped.
 const MANY_CORNERS: usize = 256;
-/// Most corners of a polygon that is clipped. For one that winds like a spiral, the time grows with their square.
+/// Maximum number of corners of a polygon that is clipped. For one that winds like a spiral, the time grows with their square.
 const MAX_CORNERS: usize = 1 << 17;
 /// Areas below this fraction of a polygon's own are rounding errors.
 const NEGLIGIBLE: f64 = 1e-6;

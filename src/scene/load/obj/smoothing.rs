@@ -16,7 +16,8 @@ use crate::scene::load::common::report::Fault;
 
 /// Cosine of 80°: faces that meet at a larger angle have an edge between them.
 const SPLIT: f64 = 0.173_648_177_666_930_35;
-/// Most faces at a vertex that are compared with each other. With more, which would take too long, all faces of a group count.
+/// Maximum number of faces at a vertex that are compared with each other. With more, which would take too long, all faces of a group
+/// count.
 const MAX_COMPARED: usize = 128;
 
 /// A corner of a face at a vertex.

@@ -91,7 +91,7 @@ impl Reader<'_> {
 
     /// Warns once for each keyword about the part of it that is not read.
     fn unread(&mut self, keyword: &str, statement: Statement<'_>, report: &mut Report) {
-        /// Most unknown keywords that get a warning.
+        /// Maximum number of unknown keywords that get a warning.
         const MAX_UNKNOWN: usize = 16;
         let element = self.element(statement.line);
         let named = shortened(statement.keyword);

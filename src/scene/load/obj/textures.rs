@@ -16,7 +16,7 @@ use crate::scene::load::common::folder::{Folder, Located};
 use crate::scene::load::common::recognise::foreign;
 use crate::scene::load::common::report::Report;
 
-/// Most texels of all images of one file (4 GiB).
+/// Maximum number of texels of all images of one file (4 GiB).
 const MAX_TEXELS: usize = 1 << 30;
 
 /// An image file, by its number.
