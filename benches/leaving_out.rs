@@ -6,7 +6,7 @@
 //! time over the number of cores. Set `MESA_SHADER_CACHE_DISABLE=1` on such an adapter: Mesa otherwise keeps compiled
 //! shaders from run to run. Compare only figures of one run.
 //!
-//! A second table has the cost of each trait for a scene that has next to nothing of it: a speck that nobody sees.
+//! A second table has the cost of each feature for a scene that has next to nothing of it: a speck that nobody sees.
 
 use asvgf::scene::{
     self, Alpha, Environment, GpuScene, Image, Light, LightKind, Material, Mesh, Node, Scene, Texture, builtin,

@@ -1,7 +1,7 @@
 #define_import_path asvgf::history_ratio
 
 // Limits of the history ratio ρ, by which the history is multiplied before it is blended (docs/filter.md, "Temporal gradient"). They
-// are the study's; no setting changes them.
+// are the prototype's; no setting changes them.
 
 // ¼ ≤ ρ ≤ 4.
 const RATIO_LIMIT: f32 = 4.0;
