@@ -127,11 +127,13 @@ pub(super) const fn turn(name: &'static str, images: fn(u8) -> Image) -> Binding
 }
 
 /// Reads the other image.
+#[cfg(feature = "path-tracer")]
 pub(super) const fn other_turn(name: &'static str, images: fn(u8) -> Image) -> Binding {
     Binding::new(name, Source::Turn(images, 1), false)
 }
 
 /// Writes the image of the step's turn.
+#[cfg(feature = "path-tracer")]
 pub(super) const fn turn_out(name: &'static str, images: fn(u8) -> Image) -> Binding {
     Binding::new(name, Source::Turn(images, 0), true)
 }

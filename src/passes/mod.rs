@@ -7,6 +7,7 @@ mod binding;
 mod feature;
 mod image;
 mod pass;
+#[cfg(feature = "path-tracer")]
 mod scene_binding;
 mod shared;
 mod step;
@@ -42,6 +43,7 @@ pub use binding::{Bound, HostView, Slot};
 pub use feature::{Feature, Features};
 pub use image::{Grid, Image};
 pub use pass::Pass;
+#[cfg(feature = "path-tracer")]
 pub(crate) use scene_binding::SceneBinding;
 pub(crate) use step::Nth;
 pub use step::Step;

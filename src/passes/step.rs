@@ -51,6 +51,7 @@ impl Nth {
     }
 
     /// One of the dispatches that share a frame's paths.
+    #[cfg(feature = "path-tracer")]
     pub const fn batch(batch: u32) -> Self {
         Self { iteration: 0, turn: batch, batch, image: None }
     }

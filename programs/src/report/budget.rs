@@ -3,12 +3,12 @@
 
 use crate::gpu::Gpu;
 use crate::report::command::Command;
+use crate::report::identity;
 use crate::report::methods::Group;
-use crate::report::pace;
+use crate::report::pace::{self, Load, Pace};
 use crate::report::record::Run;
 use crate::report::script::Script;
 use crate::report::suite::Suite;
-use crate::report::work;
 use std::collections::{BTreeSet, HashSet};
 use std::error::Error;
 use std::path::Path;
@@ -18,38 +18,6 @@ const SMALLEST: [u32; 2] = [64, 36];
 
 /// Safety factor on estimates, because scenes differ.
 const MARGIN: f64 = 1.25;
-
-/// Remaining work, once through.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Load {
-    /// Runs: methods in sequences.
-    pub runs: u64,
-    /// Frames of methods that filter.
-    pub filtered: u64,
-    /// Paths per pixel of unfiltered frames: of references, and of path tracing alone.
-    pub paths: u64,
-    /// Frames that are compared with their references.
-    pub scored: u64,
-}
-
-/// Seconds for one of each, at one size.
-#[derive(Clone, Copy, Debug)]
-pub struct Pace {
-    /// Fixed time of a run, for any number of pixels: the driver compiles shaders.
-    pub run: f64,
-    pub filtered: f64,
-    pub path: f64,
-    pub scored: f64,
-}
-
-impl Pace {
-    /// Returns the seconds of a load at a part of the pixels: all but the fixed time of the runs is proportional to
-    /// their number.
-    pub fn seconds(&self, load: &Load, part: f64) -> f64 {
-        let parts = [(self.filtered, load.filtered), (self.path, load.paths), (self.scored, load.scored)];
-        self.run * load.runs as f64 + part * parts.map(|(seconds, count)| seconds * count as f64).iter().sum::<f64>()
-    }
-}
 
 /// Returns the first of a size, its half, its quarter, … at which a load is done in time, given the pace at the full
 /// size.
@@ -104,8 +72,8 @@ fn load(suite: &Suite, gpu: &Gpu, runs: &Path) -> Result<Load, Box<dyn Error>> {
         let missing = references.iter().filter(|path| !path.exists()).count();
         load.paths += missing as u64 * u64::from(suite.paths);
         for method in &suite.methods {
-            let key = work::key(script.hash, suite, method, gpu)?;
-            if Run::load(&work::path(runs, &sequence.name, method), &key).is_some() {
+            let key = identity::key(script.hash, suite, method, gpu)?;
+            if Run::load(&identity::path(runs, &sequence.name, method), &key).is_some() {
                 continue;
             }
             let frames = u64::from(suite.frames);

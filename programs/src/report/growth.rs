@@ -3,9 +3,9 @@
 use crate::film::Film;
 use crate::gpu::Gpu;
 use crate::report::hash::Hash;
+use crate::report::identity::CODE;
 use crate::report::keep::{load, save};
 use crate::report::tessellation::tessellated;
-use crate::report::work::CODE;
 use crate::times::{PassTimes, median};
 use crate::tracing;
 use asvgf::scene::{GpuScene, Scene, builtin};

@@ -12,6 +12,7 @@ pub mod crops;
 pub mod fit;
 pub mod growth;
 pub mod hash;
+pub mod identity;
 pub mod keep;
 pub mod measure;
 pub mod methods;

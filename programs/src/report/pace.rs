@@ -2,7 +2,6 @@
 
 use crate::film::Film;
 use crate::gpu::Gpu;
-use crate::report::budget::Pace;
 use crate::report::record::Row;
 use crate::report::score;
 use crate::report::script::Script;
@@ -20,6 +19,38 @@ const FRAMES: u32 = 3;
 
 /// Paths per pixel of an unfiltered frame: enough for them to dominate the time.
 const PATHS: u32 = 4;
+
+/// Remaining work, once through.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// Runs: methods in sequences.
+    pub runs: u64,
+    /// Frames of methods that filter.
+    pub filtered: u64,
+    /// Paths per pixel of unfiltered frames: of references, and of path tracing alone.
+    pub paths: u64,
+    /// Frames that are compared with their references.
+    pub scored: u64,
+}
+
+/// Seconds for one of each, at one size.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    /// Fixed time of a run, for any number of pixels: the driver compiles shaders.
+    pub run: f64,
+    pub filtered: f64,
+    pub path: f64,
+    pub scored: f64,
+}
+
+impl Pace {
+    /// Returns the seconds of a load at a part of the pixels: all but the fixed time of the runs is proportional to
+    /// their number.
+    pub fn seconds(&self, load: &Load, part: f64) -> f64 {
+        let parts = [(self.filtered, load.filtered), (self.path, load.paths), (self.scored, load.scored)];
+        self.run * load.runs as f64 + part * parts.map(|(seconds, count)| seconds * count as f64).iter().sum::<f64>()
+    }
+}
 
 pub fn measure(gpu: &Gpu, suite: &Suite) -> Result<Pace, Box<dyn Error>> {
     let tracer = TracerSettings { samples: PATHS, ..Default::default() };

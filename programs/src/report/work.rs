@@ -3,7 +3,6 @@
 use crate::gpu::Gpu;
 use crate::report::command::Command;
 use crate::report::growth::Growth;
-use crate::report::hash::Hash;
 use crate::report::measure::{self, Output};
 use crate::report::methods::{DEFAULT, Group, Method, ONE_PATH};
 use crate::report::record::Run;
@@ -11,26 +10,15 @@ use crate::report::suite::{Sequence, Suite, TURN};
 use crate::report::summary::Summary;
 use crate::report::truth::{self, Rgb, Truth};
 use crate::report::words::Chapter;
-use crate::report::{baseline, budget, crops, plots, verdict, words_growth};
+use crate::report::{baseline, budget, crops, identity, plots, verdict, words_growth};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::fs;
+use std::path::Path;
 use std::time::{Duration, Instant};
-use std::{fs, io};
 
 /// Method with a constant α in the pictures.
 const CONSTANT: &str = "svgf 0.2";
-/// Code that decides the result of a run.
-pub const CODE: [&str; 8] = [
-    "shaders",
-    "src",
-    "programs/src/report/measure.rs",
-    "programs/src/report/record.rs",
-    "programs/src/report/score.rs",
-    "programs/src/report/truth.rs",
-    "programs/src/film.rs",
-    "programs/src/times.rs",
-];
 /// Frame in the pictures, just after the turn.
 const SHOWN: u32 = TURN + 1;
 
@@ -129,8 +117,8 @@ impl<'a> Work<'a> {
         runs: &Path,
     ) -> Result<Option<Run>, Box<dyn Error>> {
         let Command { suite, .. } = self.command;
-        let key = key(truth.hash, suite, method, gpu)?;
-        let path = path(runs, sequence, method);
+        let key = identity::key(truth.hash, suite, method, gpu)?;
+        let path = identity::path(runs, sequence, method);
         // Without a budget, runs that an earlier budget cut short are measured again.
         let complete = |run: &Run| self.deadline.is_some() || run.repeats >= suite.repeats;
         if let Some(run) = Run::load(&path, &key).filter(complete) {
@@ -167,17 +155,6 @@ impl<'a> Work<'a> {
         crops::write(&self.command.out.join(&name), size, &tiles)?;
         Ok(Some(name))
     }
-}
-
-/// Hashes everything that decides a run.
-pub fn key(scene: Hash, suite: &Suite, method: &Method, gpu: &Gpu) -> io::Result<String> {
-    let key = scene.and_files(&CODE)?.and(&method.settings).and(&suite.frames);
-    Ok(key.and(&gpu.adapter.name).to_string())
-}
-
-/// Returns the file of a run.
-pub fn path(runs: &Path, sequence: &str, method: &Method) -> PathBuf {
-    runs.join(sequence).join(format!("{}.json", method.name))
 }
 
 /// Returns a bar of frames, references included. It stays hidden without a terminal.

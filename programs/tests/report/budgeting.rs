@@ -1,6 +1,7 @@
 //! Parts that are dropped to keep within a budget.
 
-use asvgf_programs::report::budget::{Load, Pace, shortfall, size};
+use asvgf_programs::report::budget::{shortfall, size};
+use asvgf_programs::report::pace::{Load, Pace};
 
 const FULL: [u32; 2] = [640, 360];
 const PACE: Pace = Pace { run: 2.0, filtered: 0.5, path: 0.25, scored: 0.125 };
