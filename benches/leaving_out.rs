@@ -49,7 +49,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// A trait, and a function that adds a speck of it to a scene.
+/// A feature, and a function that adds a speck of it to a scene.
 type Trait = (&'static str, fn(&mut Scene));
 
 const TRAITS: [Trait; 7] = [
@@ -97,7 +97,7 @@ fn main() {
     for name in ["cornell", "pillars", "textured"] {
         println!("\n{name:<30}{:>11}{:>13}{:>9}{:>16}", "dispatches", "bytes/pixel", "ms", "first frame, ms");
         for case in cases() {
-            // Each trait gets its own device, because lavapipe forgets shaders if a device has many.
+            // Each feature gets its own device, because lavapipe forgets shaders if a device has many.
             let gpu = Gpu::new().expect("there was an adapter");
             println!("{:<30}{}", case.name, row(&gpu, scene_of(name, case.animation), &case, frames));
         }

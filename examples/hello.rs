@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for index in 0..30 {
         let mut encoder = device.create_command_encoder(&Default::default());
         uploaded.update(&device, &mut encoder, &room.pose(Some(0), index as f32 / 30.0))?;
-        denoiser.render(&device, &mut encoder, &Frame { scene: &uploaded, camera, index, target: &light })?;
+        denoiser.render(&device, &mut encoder, &Frame::new(&uploaded, camera, index, &light))?;
         queue.submit([encoder.finish()]);
     }
 

@@ -11,7 +11,7 @@ pub fn exit(result: Result<(), Box<dyn Error>>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.is::<Usage>() => {
-            eprintln!("error: {error}\n(--help says what can be asked)");
+            eprintln!("error: {error}\n(--help lists all options)");
             ExitCode::from(2)
         }
         Err(error) => {

@@ -89,11 +89,11 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         };
         let uniform = recorder.uniform(device, settings, &moment, &[]);
         // The longest frame: light in the target's texture is copied, and pairs may add passes.
-        let passes = [false, true].map(|pairs| {
-            let copied = HostInputs { in_target: true, pairs, ..inputs };
-            planned(&copied, changes).steps.len()
-        });
-        let mut recording = recorder.begin(device, index, passes[0].max(passes[1]), uniform);
+        let passes = || {
+            let steps = |pairs| planned(&HostInputs { in_target: true, pairs, ..inputs }, changes).steps.len();
+            steps(false).max(steps(true))
+        };
+        let mut recording = recorder.begin_counted(device, index, passes, uniform);
         let continued = kept.is_some();
         denoiser.abandon();
         let recorder = &mut denoiser.recorder;

@@ -120,7 +120,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         recorder.textures.place(device, recorder.size, &plan, (0, plan.steps.len()), images);
         let scene_resource = |binding| scene.resource(binding).or_else(|| before.resource(binding));
         let resources = Resources { traversal, target: Some(target), scene: &scene_resource, ..Default::default() };
-        let mut recording = recorder.begin(device, index, plan.steps.len(), uniform);
+        let mut recording = recorder.begin(device, index, || plan.steps.len(), uniform);
         recorder.record(device, encoder, &plan.steps, &resources, &mut recording, &mut self.after)?;
         let uniform = recorder.end(device, encoder, recording);
         let snapshot = Some(snapshot.clone());

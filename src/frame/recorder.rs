@@ -104,14 +104,22 @@ impl Recorder {
         filled(device, "asvgf frame", &frame::of_each_batch(uniform, batches), BufferUsages::UNIFORM)
     }
 
-    /// Begins a frame of up to `passes` passes with these constants.
-    pub fn begin(&self, device: &Device, index: u32, passes: usize, uniform: Buffer) -> Recording {
-        Recording {
-            uniform,
-            index,
-            counts: self.counters.as_ref().map(|_| Counters::begin(device)),
-            queries: self.timing.as_ref().map(|timing| timing.begin(device, index, passes)),
-        }
+    /// Begins a frame with these constants. `passes` returns the most passes that it may have.
+    pub fn begin(&self, device: &Device, index: u32, passes: impl FnOnce() -> usize, uniform: Buffer) -> Recording {
+        let queries = self.timing.as_ref().map(|timing| timing.begin(device, index, passes()));
+        Recording { uniform, index, counts: None, queries }
+    }
+
+    /// The same for a host's frame, whose cleaned input is counted.
+    pub fn begin_counted(
+        &self,
+        device: &Device,
+        index: u32,
+        passes: impl FnOnce() -> usize,
+        uniform: Buffer,
+    ) -> Recording {
+        let counts = self.counters.as_ref().map(|_| Counters::begin(device));
+        Recording { counts, ..self.begin(device, index, passes, uniform) }
     }
 
     /// Records compiled steps, and calls `after` behind each.
@@ -167,10 +175,16 @@ impl Recorder {
         timestamp_writes: Option<ComputePassTimestampWrites<'_>>,
     ) -> Result<(), Error> {
         let kernel = self.pipelines.kernel(step, resources.traversal)?;
-        let missing = |resource| Error::Shader {
-            shader: step.pass.name(),
-            features: format!("{:?}", step.features),
-            message: format!("nothing is bound as {resource:?}"),
+        let missing = |resource| {
+            let what = match resource {
+                Resource::Image(number) => step.bindings[number].name.to_owned(),
+                other => format!("{other:?}"),
+            };
+            Error::Shader {
+                shader: step.pass.name(),
+                features: format!("{:?}", step.features),
+                message: format!("nothing is bound to `{what}`"),
+            }
         };
         let groups =
             kernel.bind(device, |resource| self.resource(resource, step, resources, frame)).map_err(missing)?;

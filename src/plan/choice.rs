@@ -91,7 +91,7 @@ pub(super) fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes)
         (MappedNormals, inputs.mapped_normals, ["normals are mapped to 0…1", "normals are signed"]),
         (PackedNormals, inputs.packed_normals, ["normals are one word", "normals have channels"]),
         (PreviousDepth, inputs.previous_depth, ["previous depths are given", "no previous depth is given"]),
-        (HostMotion, copied_motion.is_none(), ["it is read once", copied_motion.unwrap_or_default()]),
+        (HostMotion, copied_motion.is_none(), ["it is read in place", copied_motion.unwrap_or_default()]),
         (HostLight, copied_light.is_none(), ["it is read in place", copied_light.unwrap_or_default()]),
         (Objects, inputs.instances, OBJECTS),
         (FloatObjects, inputs.instances && inputs.float_instances, ["instances are floats", "no instance is a float"]),

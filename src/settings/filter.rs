@@ -4,7 +4,7 @@ use super::declare::settings;
 use crate::listed::listed;
 
 settings! {
-    /// Settings of the filter. The defaults come from the study in docs/filter.md.
+    /// Settings of the filter. docs/filter.md has the measurements behind the defaults.
     pub struct FilterSettings in filter {
         /// The source of the temporal gradient.
         gradient: Gradient { default: Gradient::Automatic, classic: Gradient::Reshade, compiles: Always }

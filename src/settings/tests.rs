@@ -106,6 +106,7 @@ fn shaders(settings: &Settings) -> Vec<BTreeSet<(&'static str, Features)>> {
         lambda,
         ..Default::default()
     });
+    #[allow(unused_mut, reason = "without the path tracer these are all")]
     let mut plans: Vec<Plan> =
         inputs.iter().map(|inputs| Plan::hosted(inputs, settings, Changes::ANY, target)).collect();
     #[cfg(feature = "path-tracer")]

@@ -28,7 +28,7 @@ pub struct Node {
     pub movable: bool,
 }
 
-/// Placement of a node relative to its parent.
+/// Placement of a node relative to its parent. No variant will be added, because every affine placement is one of these.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Transform {
     /// `translation · rotation · scale`; only these can be animated.

@@ -2,8 +2,8 @@
 
 use crate::common::gpu::{Gpu, gpu};
 use crate::common::stage::Stage;
-use asvgf::Settings;
 use asvgf::scene::builtin;
+use asvgf::{Denoiser, DenoiserDescriptor, Settings};
 use wgpu::InstanceFlags;
 
 const SIZE: [u32; 2] = [40, 24];
@@ -55,4 +55,15 @@ fn a_device_that_is_strict_about_webgpu_suffices() {
     let mut there = Stage::on(strict, scene(), SIZE, Settings::adaptive());
     let mut here = Stage::on(gpu(), scene(), SIZE, Settings::adaptive());
     assert_eq!(there.frames(4).image(), here.frames(4).image());
+}
+
+/// The tracer's own samples need no cleaning, and zeros would take the place of a host's counts.
+#[test]
+fn traced_frames_count_no_input() {
+    let counting = DenoiserDescriptor { size: SIZE, diagnostics: true, ..Default::default() };
+    let mut stage = stage("cornell");
+    stage.denoiser = Denoiser::new(&gpu().device, &gpu().queue, &counting).unwrap();
+    stage.frames(2);
+    stage.image();
+    assert!(stage.denoiser.take_counts().is_none());
 }

@@ -77,7 +77,7 @@ impl Stage {
     pub fn record_pose(&mut self, encoder: &mut CommandEncoder, pose: &Pose) -> Result<(), Error> {
         self.uploaded.update(&self.gpu.device, encoder, pose).unwrap();
         let camera = self.camera_in(pose);
-        let frame = Frame { scene: &self.uploaded, camera, index: self.index, target: &self.target };
+        let frame = Frame::new(&self.uploaded, camera, self.index, &self.target);
         self.denoiser.render(&self.gpu.device, encoder, &frame)?;
         self.index += 1;
         Ok(())

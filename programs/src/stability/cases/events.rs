@@ -342,7 +342,7 @@ fn wrap() -> Worst {
             gpu.submit(|encoder| {
                 stage.uploaded.update(&gpu.device, encoder, &pose).unwrap();
                 let camera = stage.camera_in(&pose);
-                let frame = Frame { scene: &stage.uploaded, camera, index, target: &stage.target };
+                let frame = Frame::new(&stage.uploaded, camera, index, &stage.target);
                 stage.denoiser.render(&gpu.device, encoder, &frame)
             })
             .unwrap();

@@ -142,7 +142,7 @@ fn panics(device: &Device, queue: &Queue, size: [u32; 2], before: impl Fn(usize)
                 "render" => {
                     let _ = uploaded.update(device, &mut encoder, &scene.pose(Some(0), 0.5));
                     let camera = Camera::default();
-                    let frame = Frame { scene: uploaded, camera, index: 1, target: &images.target };
+                    let frame = Frame::new(uploaded, camera, 1, &images.target);
                     denoiser.render(device, &mut encoder, &frame)
                 }
                 "show" => {
@@ -237,7 +237,7 @@ fn large() -> Worst {
                 let shading = Shading::new(&images.color, &images.target);
                 refused += u32::from(denoiser.denoise(&device, &mut encoder, &shading).is_err());
                 refused += u32::from(uploaded.update(&device, &mut encoder, &scene.pose(Some(0), 0.1)).is_err());
-                let frame = Frame { scene: &uploaded, camera: Camera::default(), index, target: &images.target };
+                let frame = Frame::new(&uploaded, Camera::default(), index, &images.target);
                 refused += u32::from(denoiser.render(&device, &mut encoder, &frame).is_err());
                 queue.submit([encoder.finish()]);
                 let found = refused + errors.load(Ordering::Relaxed);
