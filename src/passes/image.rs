@@ -83,100 +83,60 @@ const MEANS_BEFORE: [&str; 6] =
     ["means before 0", "means before 1", "means before 2", "means before 3", "means before 4", "means before 5"];
 
 impl Image {
+    /// Name of the image, with its number if it takes turns or has levels.
+    pub fn name(self) -> &'static str {
+        self.row().0
+    }
+
     /// Format of the texture.
     pub fn format(self) -> TextureFormat {
-        match self {
-            Self::Visibility | Self::Object => TextureFormat::R32Uint,
-            Self::Guide
-            | Self::Motion
-            | Self::Radiance
-            | Self::Emission
-            | Self::History
-            | Self::Feedback
-            | Self::Color(_)
-            | Self::Reprojected
-            | Self::Output
-            | Self::HostPairNow
-            | Self::HostPairBefore => TextureFormat::Rg32Uint,
-            Self::Samples
-            | Self::Repeats
-            | Self::Shifts
-            | Self::PairMomentsNow(_)
-            | Self::PairMomentsBefore(_)
-            | Self::MeansNow(_)
-            | Self::MeansBefore(_)
-            | Self::Gradient(_)
-            | Self::Ratio
-            | Self::Candidates
-            | Self::CandidateCounts
-            | Self::CandidateSums
-            | Self::OutlierLimit => TextureFormat::Rgba32Uint,
-            Self::Albedo => TextureFormat::Rgba16Float,
-            Self::Sum | Self::Paths(_) => TextureFormat::Rgba32Float,
-            Self::Weights => TextureFormat::Rg32Float,
-        }
+        self.row().1
     }
 
     /// Size of the image.
     pub fn grid(self) -> Grid {
-        match self {
-            Self::Samples
-            | Self::Repeats
-            | Self::Shifts
-            | Self::HostPairNow
-            | Self::HostPairBefore
-            | Self::PairMomentsNow(_)
-            | Self::PairMomentsBefore(_)
-            | Self::MeansNow(_)
-            | Self::MeansBefore(_)
-            | Self::Gradient(_)
-            | Self::Ratio
-            | Self::Candidates
-            | Self::CandidateCounts
-            | Self::CandidateSums
-            | Self::OutlierLimit => Grid::Strata,
-            _ => Grid::Pixels,
-        }
+        self.row().2
     }
 
-    /// Name of the image, with its number if it takes turns or has levels.
-    pub fn name(self) -> &'static str {
+    fn row(self) -> (&'static str, TextureFormat, Grid) {
+        use Grid::{Pixels, Strata};
+        use TextureFormat::{R32Uint, Rg32Float, Rg32Uint, Rgba16Float, Rgba32Float, Rgba32Uint};
         match self {
-            Self::Visibility => "visibility",
-            Self::Guide => "guide",
-            Self::Motion => "motion",
-            Self::Object => "object",
-            Self::Radiance => "radiance",
-            Self::Albedo => "albedo",
-            Self::Emission => "emission",
-            Self::History => "history",
-            Self::Feedback => "feedback",
-            Self::Color(0) => "color 0",
-            Self::Color(_) => "color 1",
-            Self::Samples => "samples",
-            Self::Repeats => "repeats",
-            Self::Shifts => "shifts",
-            Self::HostPairNow => "host pair now",
-            Self::HostPairBefore => "host pair before",
-            Self::PairMomentsNow(0) => "pair moments now 0",
-            Self::PairMomentsNow(_) => "pair moments now 1",
-            Self::PairMomentsBefore(0) => "pair moments before 0",
-            Self::PairMomentsBefore(_) => "pair moments before 1",
-            Self::MeansNow(level) => MEANS_NOW[usize::from(level) % MEANS_NOW.len()],
-            Self::MeansBefore(level) => MEANS_BEFORE[usize::from(level) % MEANS_BEFORE.len()],
-            Self::Gradient(0) => "gradient 0",
-            Self::Gradient(_) => "gradient 1",
-            Self::Ratio => "ratio",
-            Self::Sum => "sum",
-            Self::Paths(0) => "paths 0",
-            Self::Paths(_) => "paths 1",
-            Self::Weights => "weights",
-            Self::Reprojected => "reprojected",
-            Self::Output => "output",
-            Self::Candidates => "candidates",
-            Self::CandidateCounts => "candidate counts",
-            Self::CandidateSums => "candidate sums",
-            Self::OutlierLimit => "outlier limit",
+            Self::Visibility => ("visibility", R32Uint, Pixels),
+            Self::Guide => ("guide", Rg32Uint, Pixels),
+            Self::Motion => ("motion", Rg32Uint, Pixels),
+            Self::Object => ("object", R32Uint, Pixels),
+            Self::Radiance => ("radiance", Rg32Uint, Pixels),
+            Self::Albedo => ("albedo", Rgba16Float, Pixels),
+            Self::Emission => ("emission", Rg32Uint, Pixels),
+            Self::History => ("history", Rg32Uint, Pixels),
+            Self::Feedback => ("feedback", Rg32Uint, Pixels),
+            Self::Color(0) => ("color 0", Rg32Uint, Pixels),
+            Self::Color(_) => ("color 1", Rg32Uint, Pixels),
+            Self::Samples => ("samples", Rgba32Uint, Strata),
+            Self::Repeats => ("repeats", Rgba32Uint, Strata),
+            Self::Shifts => ("shifts", Rgba32Uint, Strata),
+            Self::HostPairNow => ("host pair now", Rg32Uint, Strata),
+            Self::HostPairBefore => ("host pair before", Rg32Uint, Strata),
+            Self::PairMomentsNow(0) => ("pair moments now 0", Rgba32Uint, Strata),
+            Self::PairMomentsNow(_) => ("pair moments now 1", Rgba32Uint, Strata),
+            Self::PairMomentsBefore(0) => ("pair moments before 0", Rgba32Uint, Strata),
+            Self::PairMomentsBefore(_) => ("pair moments before 1", Rgba32Uint, Strata),
+            Self::MeansNow(level) => (MEANS_NOW[usize::from(level) % MEANS_NOW.len()], Rgba32Uint, Strata),
+            Self::MeansBefore(level) => (MEANS_BEFORE[usize::from(level) % MEANS_BEFORE.len()], Rgba32Uint, Strata),
+            Self::Gradient(0) => ("gradient 0", Rgba32Uint, Strata),
+            Self::Gradient(_) => ("gradient 1", Rgba32Uint, Strata),
+            Self::Ratio => ("ratio", Rgba32Uint, Strata),
+            Self::Sum => ("sum", Rgba32Float, Pixels),
+            Self::Paths(0) => ("paths 0", Rgba32Float, Pixels),
+            Self::Paths(_) => ("paths 1", Rgba32Float, Pixels),
+            Self::Weights => ("weights", Rg32Float, Pixels),
+            Self::Reprojected => ("reprojected", Rg32Uint, Pixels),
+            Self::Output => ("output", Rg32Uint, Pixels),
+            Self::Candidates => ("candidates", Rgba32Uint, Strata),
+            Self::CandidateCounts => ("candidate counts", Rgba32Uint, Strata),
+            Self::CandidateSums => ("candidate sums", Rgba32Uint, Strata),
+            Self::OutlierLimit => ("outlier limit", Rgba32Uint, Strata),
         }
     }
 }

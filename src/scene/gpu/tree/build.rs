@@ -4,7 +4,7 @@ use super::halve::halve;
 use super::layout::{Leaves, Tree, lay_out};
 use glam::Vec3A;
 use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
-use obvhs::{Boundable, BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
+use obvhs::{BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
 use std::collections::HashMap;
 
 /// Maximum number of triangles in a leaf. Up to here, a test of each is cheaper than another level.
@@ -14,33 +14,40 @@ const LEAF_TRIANGLES: u32 = 2;
 /// if all are equally near.
 const CROWD: usize = 1000;
 
-/// The largest number of boxes that are equal.
-fn largest_crowd(boxes: &[Aabb]) -> usize {
+/// True if more than [`CROWD`] boxes are equal.
+fn is_crowded(boxes: &[Aabb]) -> bool {
     let mut crowds = HashMap::<[u32; 6], usize>::new();
-    for Aabb { min, max } in boxes {
-        let key = [min.x, min.y, min.z, max.x, max.y, max.z].map(f32::to_bits);
-        *crowds.entry(key).or_default() += 1;
-    }
-    crowds.into_values().max().unwrap_or(0)
+    boxes.len() > CROWD
+        && boxes.iter().any(|Aabb { min, max }| {
+            let crowd = crowds.entry([min.x, min.y, min.z, max.x, max.y, max.z].map(f32::to_bits)).or_default();
+            *crowd += 1;
+            *crowd > CROWD
+        })
+}
+
+/// A tree of at most `deepest` levels over boxes, of which a leaf has `most` at most: obvhs' own, or a halving one if obvhs' would be
+/// deeper or take too long.
+fn within(
+    deepest: u32,
+    boxes: &[Aabb],
+    most: u32,
+    build: impl FnOnce() -> Bvh2,
+    lay_out: impl Fn(&Bvh2) -> Tree,
+) -> Tree {
+    let tree = (!is_crowded(boxes)).then(|| lay_out(&build())).filter(|tree| tree.depth <= deepest);
+    tree.unwrap_or_else(|| lay_out(&halve(boxes, most as usize)))
 }
 
 /// A tree over triangles. Its nodes have numbers from `first_node` on, its triangles rows from `first_row` on.
 pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32) -> Tree {
-    let triangles: Vec<Triangle> = corners
-        .iter()
-        .map(|t| Triangle { v0: Vec3A::from(t[0]), v1: Vec3A::from(t[1]), v2: Vec3A::from(t[2]) })
-        .collect();
-    let boxes: Vec<Aabb> = triangles.iter().map(Boundable::aabb).collect();
-    let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Triangles(first_row));
-    if largest_crowd(&boxes) <= CROWD {
+    let triangle = |t: &[[f32; 3]; 3]| Triangle { v0: Vec3A::from(t[0]), v1: Vec3A::from(t[1]), v2: Vec3A::from(t[2]) };
+    let boxes: Vec<Aabb> = corners.iter().map(|t| triangle(t).aabb()).collect();
+    let build = || {
         let boxes: Vec<Aabb> = (0..).zip(&boxes).map(|(number, &b)| unlike(b, number)).collect();
-        let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() };
-        let tree = lay_out(&build(&boxes, params));
-        if tree.depth <= DEEPEST {
-            return tree;
-        }
-    }
-    lay_out(&halve(&boxes, LEAF_TRIANGLES as usize))
+        build(&boxes, BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() })
+    };
+    let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Triangles(first_row));
+    within(DEEPEST, &boxes, LEAF_TRIANGLES, build, lay_out)
 }
 
 /// The steps of obvhs' `build_bvh2`. That function also measures their time, with a clock that browsers lack.
@@ -79,15 +86,9 @@ pub(crate) const DEEPEST: u32 = 48;
 /// replaced by [`halve`], which needs no more levels than any tree over as many instances.
 pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]], first_node: u32, deepest: u32) -> Tree {
     let boxes: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(b[0].into(), b[1].into())).collect();
+    let build = || build(&boxes, BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() });
     let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Instances);
-    if largest_crowd(&boxes) <= CROWD {
-        let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
-        let tree = lay_out(&build(&boxes, params));
-        if tree.depth <= deepest {
-            return tree;
-        }
-    }
-    lay_out(&halve(&boxes, 1))
+    within(deepest, &boxes, 1, build, lay_out)
 }
 
 #[cfg(test)]
