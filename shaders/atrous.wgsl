@@ -9,6 +9,10 @@
 #import asvgf::frame::{frame, inside, scale_at}
 #import asvgf::color::luminance
 #import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb, pack_tap, tap_color, tap_variance}
+#ifdef SPECULAR_SIGNAL
+#import asvgf::gloss::{guide_roughness, lobe_width}
+#import asvgf::packing::unpack_motion
+#endif
 #import asvgf::edge_stop::{falloff, Plane, facing, tangent_plane, plane_distance, foreshortening}
 
 @group(0) @binding(1) var<uniform> stride: i32;
@@ -21,6 +25,10 @@
 @group(0) @binding(3) var color: texture_2d<u32>;
 #endif
 @group(0) @binding(5) var color_out: texture_storage_2d<rg32uint, write>;
+#ifdef SPECULAR_SIGNAL
+// The distance of what is reflected.
+@group(0) @binding(4) var reflection: texture_2d<u32>;
+#endif
 #ifdef FEEDBACK
 // The colour of the next frame's history.
 @group(0) @binding(6) var feedback_out: texture_storage_2d<rg32uint, write>;
@@ -37,6 +45,11 @@ struct Center {
     variance: f32,
     // Depth gradient per stride, for the classic depth stop.
     depth_gradient: vec2<f32>,
+#ifdef SPECULAR_SIGNAL
+    roughness: f32,
+    // Exponent of the footprint's stop at a distance of one stride.
+    footprint: f32,
+#endif
 }
 
 struct Sums {
@@ -61,15 +74,23 @@ struct Tap {
     color: vec2<u32>,
     normal: u32,
     depth: f32,
+#ifdef SPECULAR_SIGNAL
+    roughness: f32,
+#endif
 }
 
 fn tap_at(pixel: vec2<i32>) -> Tap {
 #ifdef STORAGE_READS
     let g = textureLoad(guide, pixel).xy;
-    return Tap(textureLoad(color, pixel).xy, g.x, bitcast<f32>(g.y));
+    let c = textureLoad(color, pixel).xy;
 #else
     let g = textureLoad(guide, pixel, 0).xy;
-    return Tap(textureLoad(color, pixel, 0).xy, g.x, bitcast<f32>(g.y));
+    let c = textureLoad(color, pixel, 0).xy;
+#endif
+#ifdef SPECULAR_SIGNAL
+    return Tap(c, g.x, bitcast<f32>(g.y), guide_roughness(g));
+#else
+    return Tap(c, g.x, bitcast<f32>(g.y));
 #endif
 }
 
@@ -86,6 +107,30 @@ fn load(pixel: vec2<i32>, offset: vec2<i32>) -> Tap {
 const CLASSIC_DEPTH: f32 = 1e-3;
 #endif
 
+#ifdef SPECULAR_SIGNAL
+// Difference of roughnesses at which the stop has an exponent of 1.
+const ROUGHNESS_TOLERANCE: f32 = 0.05;
+
+// Deviation of the footprint's stop, in widths of the reflection, and the least one in pixels. (Docs: below three widths the error grows
+// up to fivefold.)
+const FOOTPRINT: f32 = 8.0;
+const LEAST_FOOTPRINT: f32 = 2.0;
+
+// Exponent of the footprint's stop at a distance of one stride.
+fn footprint(pixel: vec2<i32>, roughness: f32, depth: f32) -> f32 {
+    let hit_distance = unpack_motion(textureLoad(reflection, pixel, 0).xy).z;
+    let width = FOOTPRINT * lobe_width(roughness, hit_distance, depth, sqrt(frame.camera.inverse_du));
+    let deviation = max(width, LEAST_FOOTPRINT) / f32(stride);
+    return 0.5 / (deviation * deviation);
+}
+
+// Exponent of the stops that only specular light has: other roughness, and farther away than the lobe reaches.
+fn gloss_stop(c: Center, tap: Tap, offset: vec2<i32>) -> f32 {
+    let apart = (tap.roughness - c.roughness) / ROUGHNESS_TOLERANCE;
+    return apart * apart + c.footprint * f32(offset.x * offset.x + offset.y * offset.y);
+}
+#endif
+
 // Adds a tap, weighted by the kernel and the stops. `slant` is the exponent of the foreshortening stop in the tap's direction.
 fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, kernel: f32, slant: f32) {
     let depth = tap.depth;
@@ -97,15 +142,24 @@ fn add_tap(sums: ptr<function, Sums>, c: Center, tap: Tap, offset: vec2<i32>, ke
     // The stops of Schied et al. 2017 (§4.4), as Basci 2025 has them. ∇z is that of the tangent plane, exact where differences of
     // neighbours are not.
     let slope = abs(dot(c.depth_gradient, vec2<f32>(offset))) * frame.sigma_depth + CLASSIC_DEPTH * c.plane.depth;
+#ifdef SPECULAR_SIGNAL
+    let exponent = abs(depth - c.plane.depth) / slope + abs(difference) * c.variance + gloss_stop(c, tap, offset);
+#else
     let exponent = abs(depth - c.plane.depth) / slope + abs(difference) * c.variance;
+#endif
     // The cosine's base is above 0: pow(0, 0) may be anything, but σ = 0 shall stop nothing.
     let w = kernel * pow(clamp(cosine, 1e-9, 1.0), frame.sigma_normal) * exp(-exponent);
 #else
     // The squared difference less the noise that both ends are known to have leaves the signal.
     let noise = c.variance + sample_variance;
     let excess = difference * difference - (c.variance + min(c.variance, sample_variance));
+#ifdef SPECULAR_SIGNAL
+    let exponent = slant + plane_distance(c.plane, vec2<f32>(offset), depth) + frame.sigma_normal * (1.0 - cosine)
+        + max(excess, 0.0) / (frame.gloss_sigma_luminance * noise + 1e-37) + gloss_stop(c, tap, offset);
+#else
     let exponent = slant + plane_distance(c.plane, vec2<f32>(offset), depth) + frame.sigma_normal * (1.0 - cosine)
         + max(excess, 0.0) / (frame.sigma_luminance * noise + 1e-37);
+#endif
     let w = kernel * falloff(exponent);
 #endif
     let weight = select(0.0, w, depth > 0.0);
@@ -219,11 +273,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef FULL_KERNEL
     let oblique = vec4(0.0);
 #endif
-    let c = Center(
-        plane, normal * (1.0 / 511.0), own_luminance,
-        1.0 / (frame.sigma_luminance * sqrt(variance) + 1e-6 * own_luminance + 1e-37),
-        gradient * f32(stride),
-    );
+#ifdef SPECULAR_SIGNAL
+    let sigma = frame.gloss_sigma_luminance;
+#else
+    let sigma = frame.sigma_luminance;
+#endif
+    var c: Center;
+    c.variance = 1.0 / (sigma * sqrt(variance) + 1e-6 * own_luminance + 1e-37);
+    c.depth_gradient = gradient * f32(stride);
 #else
     let slant = frame.sigma_foreshortening * vec4(
         foreshortening(plane, vec2<f32>(pixel), vec2(1.0, 0.0)),
@@ -241,7 +298,16 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
     // Slopes per stride, in units of the tolerated distance.
     plane.slope *= vec3(1.0, vec2(f32(stride))) / (frame.sigma_depth * scale_at(frame.camera, depth));
-    let c = Center(plane, normal * (1.0 / 511.0), own_luminance, variance, vec2(0.0));
+    var c: Center;
+    c.variance = variance;
+    c.depth_gradient = vec2(0.0);
+#endif
+    c.plane = plane;
+    c.normal = normal * (1.0 / 511.0);
+    c.own = own_luminance;
+#ifdef SPECULAR_SIGNAL
+    c.roughness = own.roughness;
+    c.footprint = footprint(pixel, own.roughness, depth);
 #endif
     var sums: Sums;
     sums.color = own_color;

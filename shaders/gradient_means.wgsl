@@ -27,6 +27,12 @@
 #ifdef OUTLIERS
 #import asvgf::outliers::{bound, ratio_to, unpack_limit}
 #endif
+#ifdef SPECULAR_SIGNAL
+#import asvgf::gloss::{guide_roughness, lobe_width}
+#import asvgf::history_taps::reflection_at
+#import asvgf::reproject::in_mirror
+#import asvgf::specular_history::{combined, evidence_at, weight_of}
+#endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 #ifdef OUTLIERS
@@ -85,7 +91,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
 #endif
         let moved = motion_of(pixel, depth);
-        let history = mean_of(bilinear_taps(origin_at(pixel, moved, n), vec2<f32>(pixel) + moved.xy));
+        let origin = origin_at(pixel, moved, n);
+        var history = mean_of(bilinear_taps(origin, vec2<f32>(pixel) + moved.xy));
+#ifdef SPECULAR_SIGNAL
+        let reflection = reflection_at(pixel);
+        let reflected = mean_of(bilinear_taps(in_mirror(origin), vec2<f32>(pixel) + reflection.xy));
+        let width = lobe_width(guide_roughness(g), reflection.z, depth, sqrt(frame.camera.inverse_du));
+        history = combined(history, reflected, weight_of(evidence_at(stratum).sums), reflection.xy, moved.xy, width);
+#endif
         if history.weight <= 0.0 {
             continue;
         }

@@ -28,7 +28,11 @@
 #import asvgf::strata::{is_sample_pixel, previous_pixel, stratum_of}
 #endif
 
+#ifdef SPECULAR_SIGNAL
+@group(0) @binding(1) var radiance_out: texture_storage_2d<rgba32uint, write>;
+#else
 @group(0) @binding(1) var radiance_out: texture_storage_2d<rg32uint, write>;
+#endif
 #ifdef RESHADE
 @group(0) @binding(4) var samples: texture_2d<u32>;
 #endif

@@ -29,7 +29,11 @@
 #import asvgf::strata::is_sample_pixel
 #endif
 #ifndef STILL
+#ifdef SPECULAR_SIGNAL
+#import asvgf::history_taps::reflection_at
+#else
 #import asvgf::history_taps::motion_of
+#endif
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
@@ -57,7 +61,12 @@ fn origin(pixel: vec2<i32>, depth: f32) -> vec2<i32> {
 #ifdef STILL
     return pixel;
 #else
-    return vec2<i32>(floor(vec2<f32>(pixel) + 0.5 + motion_of(pixel, depth).xy));
+#ifdef SPECULAR_SIGNAL
+    let moved = reflection_at(pixel).xy;
+#else
+    let moved = motion_of(pixel, depth).xy;
+#endif
+    return vec2<i32>(floor(vec2<f32>(pixel) + 0.5 + moved));
 #endif
 }
 

@@ -10,6 +10,14 @@
 #endif
 #import asvgf::sample::sample_at
 #ifdef HOST_LIGHT
+#ifdef GLOSS
+#ifdef UNFILTERED
+#import asvgf::host_light::clean
+#endif
+#ifdef REFLECTANCE
+#import asvgf::host_light::cleaned_albedo
+#endif
+#endif
 #ifdef ALBEDO
 #import asvgf::host_light::host_albedo
 #ifdef MODULATED
@@ -25,6 +33,20 @@
 
 #ifndef UNFILTERED
 @group(0) @binding(1) var color: texture_2d<u32>;
+#endif
+#ifdef GLOSS
+#ifdef UNFILTERED
+#ifdef HOST_LIGHT
+@group(0) @binding(9) var specular_radiance: texture_2d<f32>;
+#else
+@group(0) @binding(9) var specular_radiance: texture_2d<u32>;
+#endif
+#else
+@group(0) @binding(9) var specular_color: texture_2d<u32>;
+#endif
+#ifdef REFLECTANCE
+@group(0) @binding(10) var specular_albedo: texture_2d<f32>;
+#endif
 #endif
 @group(0) @binding(8) var guide: texture_2d<u32>;
 
@@ -87,6 +109,32 @@ const LIMIT: f32 = 65504.0;
 const LIMIT: f32 = 3.4e38;
 #endif
 
+#ifdef GLOSS
+// The specular light, with its reflectance.
+fn specular_at(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+#ifdef UNFILTERED
+#ifdef HOST_LIGHT
+    var light = clean(textureLoad(specular_radiance, pixel, 0).xyz);
+#ifdef MODULATED
+    return light;
+#endif
+#else
+    var light = unpack_rgb(textureLoad(specular_radiance, pixel, 0).xy);
+#endif
+#else
+    var light = filtered_color(textureLoad(specular_color, pixel, 0).xy);
+#endif
+#ifdef REFLECTANCE
+#ifdef HOST_LIGHT
+    light *= cleaned_albedo(textureLoad(specular_albedo, pixel, 0).xyz, hit);
+#else
+    light *= textureLoad(specular_albedo, pixel, 0).xyz;
+#endif
+#endif
+    return light;
+}
+#endif
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
@@ -105,6 +153,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #ifdef ALBEDO
     result *= albedo_at(pixel, hit);
+#endif
+#ifdef GLOSS
+    result += specular_at(pixel, hit);
 #endif
 #ifdef DIRECT_EMISSION
     result += emission_at(pixel);

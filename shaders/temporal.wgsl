@@ -37,6 +37,16 @@
 #else
 #import asvgf::history_taps::{LEAST_WEIGHT, TapSum, add_tap, bilinear_taps, corner_of, mean_of, motion_of, origin_at}
 #import asvgf::reproject::Origin
+#ifdef SPECULAR_SIGNAL
+#import asvgf::history_taps::reflection_at
+#import asvgf::reproject::in_mirror
+#import asvgf::gloss::{guide_roughness, lobe_width}
+#import asvgf::specular_history::{combined, evidence_around, weight_of}
+#endif
+#ifdef MIXED_GLOSS
+#import asvgf::frame::{is_orthographic, project, ray_direction, sample_point, seen_position}
+#import asvgf::gloss::unpack_gloss
+#endif
 #endif
 #ifdef EXTERNAL_LAMBDA
 #import asvgf::color::is_finite
@@ -62,6 +72,11 @@
 #endif
 #ifdef EXTERNAL_LAMBDA
 @group(0) @binding(10) var external_lambda: texture_2d<f32>;
+#endif
+#ifdef MIXED_GLOSS
+#ifndef STILL
+@group(0) @binding(12) var gloss: texture_2d<u32>;
+#endif
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rg32uint, write>;
 #ifdef STEADY
@@ -102,9 +117,9 @@ fn steadiness(lambda: f32, ratio: f32, length: f32, motion: vec2<f32>) -> f32 {
 // e^(−d²).
 const SEARCH: i32 = 16;
 
-// The history at the place where the pixel's surface was.
-fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> History {
-    let point = vec2<f32>(pixel) + m.xy;
+// The history at the place where the pixel's surface, or its reflection, was: `moved` pixels away.
+fn reproject(pixel: vec2<i32>, moved: vec2<f32>, origin: Origin, seen: bool) -> History {
+    let point = vec2<f32>(pixel) + moved;
     var sum = bilinear_taps(origin, point);
     // The search is a loop of length 0 elsewhere, and not a branch, because a software adapter executes a branch either way.
 #ifdef MISSING_SAMPLES
@@ -128,10 +143,53 @@ fn reproject(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, seen: bool) -> Hist
 }
 #endif
 
+#ifdef SPECULAR_SIGNAL
+#ifndef STILL
+// The history of the specular light, see specular_history.wgsl.
+fn reproject_gloss(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, g: vec2<u32>, depth: f32, seen: bool) -> History {
+    let reflection = reflection_at(pixel);
+    let surface = reproject(pixel, m.xy, origin, seen);
+    let reflected = reproject(pixel, reflection.xy, in_mirror(origin), seen);
+    let width = lobe_width(guide_roughness(g), reflection.z, depth, sqrt(frame.camera.inverse_du));
+    return combined(surface, reflected, weight_of(evidence_around(pixel, origin.normal)), reflection.xy, m.xy, width);
+}
+#endif
+#endif
+
+#ifdef MIXED_GLOSS
+#ifndef STILL
+// Distance of what a glossy surface reflects, in parts of the depth, where one radiance holds all light.
+const REFLECTED: f32 = 0.5;
+
+// Longest history of a surface whose light is partly specular (p: pixels between its motion and that of a reflection half the depth
+// away; the flat mirror's image is as far behind the surface):
+//
+//   1/n = 1/n_max + gloss_parallax·part·(1 − r)²·p
+fn longest_of_mixed(pixel: vec2<i32>, m: vec3<f32>, depth: f32) -> f32 {
+    let gloss = unpack_gloss(textureLoad(gloss, pixel, 0).x);
+    let point = sample_point(frame.camera, vec2<f32>(pixel));
+    let here = seen_position(frame.camera, point, depth);
+    let image = here + normalize(ray_direction(frame.camera, point)) * (REFLECTED * depth);
+    let displaced = seen_position(frame.previous, point + m.xy, m.z) - here;
+    let shift = project(frame.previous, image + displaced).xy - project(frame.camera, image).xy;
+    let smoothness = 1.0 - gloss.roughness;
+    let slid = select(0.0, min(distance(shift, m.xy), 1e6), gloss.exists);
+    let rate = 1.0 / frame.max_history + frame.gloss_parallax * gloss.part * smoothness * smoothness * slid;
+    // The new sample is one of the n.
+    return max(1.0 / rate - 1.0, 0.0);
+}
+#endif
+#endif
+
 // The part of a history's length that is kept: (1 − λ)^k. Failure: pow(0, 0) may be anything, but a power of 0 shall shorten
 // nothing. Rule: the base stays above 0.
 fn kept_part(lambda: f32) -> f32 {
-    return pow(max(1.0 - lambda, 1e-9), frame.history_power);
+#ifdef SPECULAR_SIGNAL
+    let power = frame.gloss_history_power;
+#else
+    let power = frame.history_power;
+#endif
+    return pow(max(1.0 - lambda, 1e-9), power);
 }
 
 #ifdef OUTLIERS
@@ -207,9 +265,21 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         history = own_history(pixel);
 #else
         let m = motion_of(pixel, depth);
-        history = reproject(pixel, m, origin_at(pixel, m, normal), seen);
+        let origin = origin_at(pixel, m, normal);
+#ifdef SPECULAR_SIGNAL
+        history = reproject_gloss(pixel, m, origin, g, depth, seen);
+#else
+        history = reproject(pixel, m.xy, origin, seen);
+#endif
+#ifdef MIXED_GLOSS
+        history.length = min(history.length, longest_of_mixed(pixel, m, depth));
+#endif
 #ifdef STEADY
+#ifdef SPECULAR_SIGNAL
+        moved = reflection_at(pixel).xy;
+#else
         moved = m.xy;
+#endif
 #endif
 #endif
     }

@@ -15,6 +15,12 @@
 #endif
 #import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at}
 #import asvgf::material::{LEAST_DEMODULATION, Surface, surface_at, demodulation, scattering, sample_direction}
+#ifdef GLOSS
+#import asvgf::material::{LEAST_SPECULAR, specular_demodulation, specular_share}
+#ifdef INSTANCED
+#import asvgf::packing::pack_displacement
+#endif
+#endif
 #import asvgf::light::{environment_radiance, environment_density, emitter_density}
 #ifdef LIGHTS
 #import asvgf::light::sample_light
@@ -23,6 +29,7 @@
 #import asvgf::color::{BRIGHTEST, luminance, sanitize}
 #import asvgf::packing::{pack_rgb, round_to_f16}
 #ifdef ALPHA_BLEND
+#import asvgf::material::whole_demodulation
 #import asvgf::texture::{cover_at_random, cover_from, covered_at, is_blended}
 #endif
 #ifdef RESHADE
@@ -36,7 +43,14 @@
 #endif
 #ifdef LATER_PATHS
 @group(0) @binding(9) var paths_out: texture_storage_2d<rgba32float, write>;
+#ifdef GLOSS
+@group(0) @binding(11) var specular_paths_out: texture_storage_2d<rgba32float, write>;
+#endif
 #else
+#ifdef GLOSS
+// Demodulated specular radiance; distance and displacement of what is reflected.
+@group(0) @binding(7) var specular_radiance_out: texture_storage_2d<rgba32uint, write>;
+#endif
 @group(0) @binding(4) var radiance_out: texture_storage_2d<rg32uint, write>;
 // The albedo, and the number of rays that the pixel cost.
 @group(0) @binding(5) var albedo_out: texture_storage_2d<rgba16float, write>;
@@ -48,6 +62,10 @@
 // Sum over the paths of earlier dispatches, and the pixel's rays.
 #ifdef EARLIER_PATHS
 @group(0) @binding(8) var paths_before: texture_2d<f32>;
+#ifdef GLOSS
+// The same of specular light, and the sum of the inverse distances of what is reflected.
+@group(0) @binding(10) var specular_paths_before: texture_2d<f32>;
+#endif
 #endif
 
 // The pixel's rays so far, the primary one included.
@@ -86,11 +104,40 @@ fn mis_weight(chosen: f32, other: f32) -> f32 {
 }
 
 // One path's estimate of the radiance that the surface reflects towards the viewer.
-fn path(first: Surface, seed: u32) -> vec3<f32> {
+struct Light {
+    // All of it, or what the diffuse lobe reflects.
+    diffuse: vec3<f32>,
+#ifdef GLOSS
+    // What the specular lobe reflects.
+    specular: vec3<f32>,
+    // Distance to what the path met along the specular lobe; 0 if it left by the diffuse one.
+    hit_distance: f32,
+#ifdef INSTANCED
+    // Displacement of that since the last frame.
+    displacement: vec3<f32>,
+#endif
+#endif
+}
+
+// Farthest distance of what is reflected: the sky's.
+const FARTHEST: f32 = 8e9;
+
+// Traces a path. With GLOSS its light is split by the lobe of the first surface: each direction is sampled once, by the density of both
+// lobes together, and weighted by the value of each lobe. So neither signal needs a path of its own, and none misses a sample.
+fn path(first: Surface, seed: u32) -> Light {
     var state = seed;
     var s = first;
     var throughput = vec3(1.0);
     var total = vec3(0.0);
+#ifdef GLOSS
+    // The part of the throughput that left the first surface by its specular lobe.
+    var specular_part = vec3(0.0);
+    var specular = vec3(0.0);
+    var hit_distance = 0.0;
+#ifdef INSTANCED
+    var displacement = vec3(0.0);
+#endif
+#endif
     for (var bounce = 0u; bounce <= frame.bounces; bounce++) {
         // The number of draws per bounce is always the same, so that a change of one light does not shift the others' random numbers.
         let light_choice = uniform_float(&state);
@@ -116,7 +163,15 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 #else
                 let weight = select(1.0, mis_weight(light.density, towards.density), light.has_area);
 #endif
+#ifdef GLOSS
+                // The direct light of the first surface is split by the lobes' values in this direction.
+                let all = arriving * (weight / light.density);
+                let part = select(specular_part * all, towards.specular * light.radiance * (weight / light.density), bounce == 0u);
+                specular += part;
+                total += throughput * all - part;
+#else
                 total += throughput * arriving * (weight / light.density);
+#endif
             }
         }
 #endif
@@ -127,8 +182,17 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
             break;
         }
         throughput *= scattered.value / scattered.density;
+#ifdef GLOSS
+        specular_part = select(
+            specular_part * scattered.value / scattered.density, scattered.specular / scattered.density, bounce == 0u);
+#endif
         rays += 1u;
         let hit = closest_hit(Ray(origin, next));
+#ifdef GLOSS
+        if bounce == 0u && lobe < specular_share(s) {
+            hit_distance = select(hit.distance, FARTHEST, hit.triangle == NO_TRIANGLE);
+        }
+#endif
         if hit.triangle == NO_TRIANGLE {
 #ifdef ENVIRONMENT_LIGHT
 #ifndef LIGHT_SAMPLES_ONLY
@@ -138,13 +202,25 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 #else
             let weight = mis_weight(scattered.density, environment_density(sky));
 #endif
+#ifdef GLOSS
+            specular += specular_part * sky * weight;
+            total += (throughput - specular_part) * sky * weight;
+#else
             total += throughput * sky * weight;
+#endif
 #endif
 #endif
             break;
         }
         let v = Visible(hit.triangle, hit.instance);
         let t = triangle_now(v);
+#ifdef GLOSS
+#ifdef INSTANCED
+        if bounce == 0u && hit_distance > 0.0 {
+            displacement = at(triangle_before(v), hit.barycentrics) - at(t, hit.barycentrics);
+        }
+#endif
+#endif
         s = surface_at(v, t, hit.barycentrics, next);
 #ifdef EMITTERS
 #ifndef LIGHT_SAMPLES_ONLY
@@ -160,7 +236,12 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
 #endif
             let weight = mis_weight(scattered.density, emitter_density(index, t, next, hit.distance));
 #endif
+#ifdef GLOSS
+            specular += specular_part * s.emission * weight;
+            total += (throughput - specular_part) * s.emission * weight;
+#else
             total += throughput * s.emission * weight;
+#endif
         }
 #endif
 #endif
@@ -171,10 +252,28 @@ fn path(first: Surface, seed: u32) -> vec3<f32> {
                 break;
             }
             throughput /= p;
+#ifdef GLOSS
+            specular_part /= p;
+#endif
         }
     }
-    return total;
+#ifdef GLOSS
+#ifdef INSTANCED
+    return Light(total, specular, hit_distance, displacement);
+#else
+    return Light(total, specular, hit_distance);
+#endif
+#else
+    return Light(total);
+#endif
 }
+
+#ifdef GLOSS
+// A path's specular light, and the inverse of the distance of what is reflected.
+fn of_lobe(light: Light) -> vec4<f32> {
+    return vec4(sanitize(light.specular), select(0.0, 1.0 / light.hit_distance, light.hit_distance > 0.0));
+}
+#endif
 
 #ifdef ALPHA_BLEND
 // Start of a path that meets blended surfaces at random.
@@ -234,7 +333,7 @@ fn blended_albedo(ray: Ray) -> vec3<f32> {
         let v = Visible(hit.triangle, hit.instance);
         let s = surface_at(v, triangle_now(v), hit.barycentrics, ray.direction);
         let covered = covered_at(hit.triangle, hit.barycentrics);
-        albedo += uncovered * covered * select(demodulation(s), vec3(1.0), luminance(s.emission) > 0.0);
+        albedo += uncovered * covered * select(whole_demodulation(s), vec3(1.0), luminance(s.emission) > 0.0);
         uncovered *= 1.0 - covered;
         // The margin that keeps rays from meeting the surface again, on its other side.
         origin = s.position - s.margin * s.geometric + (STEP_BEHIND * hit.distance) * ray.direction;
@@ -256,7 +355,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if seen == NO_TRIANGLE {
 #ifdef LATER_PATHS
         textureStore(paths_out, pixel, vec4(0.0));
+#ifdef GLOSS
+        textureStore(specular_paths_out, pixel, vec4(0.0));
+#endif
 #else
+#ifdef GLOSS
+        textureStore(specular_radiance_out, pixel, vec4(0u));
+#endif
         textureStore(radiance_out, pixel, vec4(0u));
         textureStore(albedo_out, pixel, vec4(0.0, 0.0, 0.0, 1.0));
 #ifdef DIRECT_EMISSION
@@ -306,8 +411,26 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     sum = before.xyz;
     rays = u32(before.w);
 #endif
+#ifdef GLOSS
+    // Specular light, and the sum of the inverse distances: the harmonic mean counts near things most, because they move most.
+    var specular = vec4(0.0);
+    // Displacement of what the last path met.
+    var displacement = 0u;
+#ifdef EARLIER_PATHS
+    specular = textureLoad(specular_paths_before, pixel, 0);
+#endif
+#endif
 #ifndef LATER_PATHS
     var modulation = albedo;
+#ifdef GLOSS
+    var specular_modulation = specular_demodulation(s);
+#ifdef ALPHA_BLEND
+    // The light of blended surfaces counts as diffuse.
+    if start_of_path(s, ray, 0u).blended {
+        specular_modulation = vec3(0.0);
+    }
+#endif
+#endif
 #ifdef RESHADE
     if is_repeated {
         modulation = demodulation(s);
@@ -325,15 +448,42 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let start = start_of_path(s, ray, seed);
         sum += sanitize(start.light);
         if !start.ends {
-            sum += sanitize(path(start.surface, seed));
+            let light = path(start.surface, seed);
+            sum += sanitize(light.diffuse);
+#ifdef GLOSS
+            if start.blended {
+                sum += sanitize(light.specular);
+            } else {
+                specular += of_lobe(light);
+#ifdef INSTANCED
+                displacement = select(displacement, pack_displacement(light.displacement), light.hit_distance > 0.0);
+#endif
+            }
+#endif
         }
 #else
-        sum += sanitize(path(s, seed));
+        let light = path(s, seed);
+        sum += sanitize(light.diffuse);
+#ifdef GLOSS
+        specular += of_lobe(light);
+#ifdef INSTANCED
+        displacement = select(displacement, pack_displacement(light.displacement), light.hit_distance > 0.0);
+#endif
+#endif
 #endif
     }
 #ifdef LATER_PATHS
     textureStore(paths_out, pixel, vec4(sum, f32(rays)));
+#ifdef GLOSS
+    textureStore(specular_paths_out, pixel, specular);
+#endif
 #else
+#ifdef GLOSS
+    let reflected = specular.xyz / (f32(frame.samples) * max(specular_modulation, vec3(LEAST_SPECULAR)));
+    let packed = pack_rgb(min(reflected, vec3(BRIGHTEST)));
+    let hit_distance = select(0.0, f32(frame.samples) / specular.w, specular.w > 0.0);
+    textureStore(specular_radiance_out, pixel, vec4(packed, bitcast<u32>(min(hit_distance, FARTHEST)), displacement));
+#endif
     textureStore(albedo_out, pixel, vec4(albedo, min(f32(rays), MOST_RAYS)));
     let demodulated = sum / (f32(frame.samples) * modulation);
     textureStore(radiance_out, pixel, vec4(pack_rgb(min(demodulated, vec3(BRIGHTEST))), 0u, 0u));

@@ -179,6 +179,44 @@ fn repeated_noise(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32
 }
 #endif
 
+#ifdef CLAMP
+// Pixels of the 5×5 around.
+const CLAMP_TAPS: i32 = 25;
+
+// Fewest pixels of the surface among them that show what is usual.
+const FEWEST: f32 = 6.0;
+
+// Cosine of normals of one surface here: acos 0.8 is 37°.
+const ONE_SURFACE: f32 = 0.8;
+
+// Factor that brings a pixel's luminance down to `gloss_clamp` times the third largest of the 24 around on its surface, about their
+// 90th percentile. Failure: a highlight that one path had met glowed on for a dozen frames, as wide as the filter. Reason: the mean of a
+// few samples is as far off as its largest one, and its neighbours know no better. Rule: the filter takes in what is usual around;
+// the history keeps all of the light, and shows it once it is sure.
+fn clamped(pixel: vec2<i32>, normal: vec3<f32>, center: f32, seen: bool) -> f32 {
+    var first = 0.0;
+    var second = 0.0;
+    var third = 0.0;
+    var count = 0.0;
+    let taps = select(0, CLAMP_TAPS, seen && center > 0.0);
+    for (var i = 0; i < taps; i++) {
+        // (i·13) >> 6 is i / 5 for i < 25.
+        let row = (i * 13) >> 6u;
+        let tap = pixel + vec2(i - 5 * row, row) - 2;
+        let near = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
+        let g = textureLoad(guide, near, 0).xy;
+        let h = textureLoad(history, near, 0).xy;
+        let there = i != 12 && inside(tap) && g.y != 0u && history_length(h) > 0.0 && dot(normal, unpack_normal(g.x)) >= ONE_SURFACE;
+        let l = select(0.0, mean_luminance(h), there);
+        third = max(third, min(second, l));
+        second = max(second, min(first, l));
+        first = max(first, l);
+        count += select(0.0, 1.0, there);
+    }
+    return select(1.0, min(1.0, frame.gloss_clamp * third / max(center, 1e-37)), count >= FEWEST);
+}
+#endif
+
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
@@ -215,7 +253,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let mean = first / max(weights, 1e-6);
     // Times 4/n: the neighbours of a history of n < 4 frames have seen as few frames as the pixel itself.
-    let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * max(1.0, SHORT_HISTORY / max(length, 1.0));
+#ifdef SPECULAR_SIGNAL
+    // Without the factor below: a mirror's own picture varies as much as its noise does.
+    let few = 1.0;
+#else
+    let few = max(1.0, SHORT_HISTORY / max(length, 1.0));
+#endif
+    let spatial = max(second / max(weights, 1e-6) - mean * mean, 0.0) * few;
 #ifdef VARIANCE_OF_MEAN
     // The variance of a mean of n samples: the unbiased variance of a sample over n.
     let own = unbiased(history_variance(h), length);
@@ -229,7 +273,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let silent = length >= 2.0 && center > 0.0 && history_variance(h) <= SILENT * center * center;
     variance = max(variance, SHORT_HISTORY * repeated_noise(pixel, plane, normal, center, silent));
 #endif
+#ifdef CLAMP
+    let usual = clamped(pixel, normal, center, length > 0.0);
+    variance *= usual * usual;
+    let color = usual * color_at(pixel, h);
+#else
     let color = color_at(pixel, h);
+#endif
 #ifdef MISSING_SAMPLES
     // An infinite sample is shown, with a deviation of 0: it is so far from all others that the filter does not mix it with them.
     let infinite = any(h != vec2(0u));

@@ -42,6 +42,22 @@ struct Show {
 @group(0) @binding(4) var emission: texture_2d<u32>;
 #endif
 
+#ifdef GLOSS
+@group(0) @binding(12) var specular_color: texture_2d<u32>;
+#ifdef REFLECTANCE
+@group(0) @binding(13) var specular_albedo: texture_2d<f32>;
+#endif
+
+fn specular_at(pixel: vec2<i32>) -> vec3<f32> {
+    let light = filtered_color(textureLoad(specular_color, pixel, 0).xy);
+#ifdef REFLECTANCE
+    return light * textureLoad(specular_albedo, pixel, 0).xyz;
+#else
+    return light;
+#endif
+}
+#endif
+
 fn value(pixel: vec2<i32>) -> vec3<f32> {
     var c = filtered_color(textureLoad(color, pixel, 0).xy);
 #ifdef BACKGROUND
@@ -51,6 +67,9 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 #endif
 #ifdef ALBEDO
     c *= textureLoad(albedo, pixel, 0).xyz;
+#endif
+#ifdef GLOSS
+    c += specular_at(pixel);
 #endif
 #ifdef DIRECT_EMISSION
     c += unpack_rgb(textureLoad(emission, pixel, 0).xy);
@@ -72,10 +91,29 @@ fn picture(v: vec3<f32>) -> vec3<f32> {
 @group(0) @binding(4) var emission: texture_2d<u32>;
 #endif
 
+#ifdef GLOSS
+@group(0) @binding(12) var specular_radiance: texture_2d<u32>;
+#ifdef REFLECTANCE
+@group(0) @binding(13) var specular_albedo: texture_2d<f32>;
+#endif
+
+fn specular_at(pixel: vec2<i32>) -> vec3<f32> {
+    let light = unpack_rgb(textureLoad(specular_radiance, pixel, 0).xy);
+#ifdef REFLECTANCE
+    return light * textureLoad(specular_albedo, pixel, 0).xyz;
+#else
+    return light;
+#endif
+}
+#endif
+
 fn value(pixel: vec2<i32>) -> vec3<f32> {
     var c = unpack_rgb(textureLoad(radiance, pixel, 0).xy);
 #ifdef ALBEDO
     c *= textureLoad(albedo, pixel, 0).xyz;
+#endif
+#ifdef GLOSS
+    c += specular_at(pixel);
 #endif
 #ifdef DIRECT_EMISSION
     c += unpack_rgb(textureLoad(emission, pixel, 0).xy);

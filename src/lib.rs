@@ -112,7 +112,7 @@ pub use error::Error;
 pub use gpu::counts::InputCounts;
 pub use gpu::pipelines::Pipelines;
 pub use gpu::timing::FrameTimes;
-pub use host::{Lambda, Pairs, Reshade, Shading, Surfaces};
+pub use host::{Gloss, Lambda, Pairs, Reshade, Shading, Surfaces};
 pub use passes::Pass;
 pub use plan::Changes;
 pub use settings::{

@@ -73,6 +73,13 @@ struct Frame {
     steadiness: f32,
     // Greatest luminance of a sample in multiples of its level, see outliers.wgsl.
     outlier_limit: f32,
+    // The exponent and the stop of the specular signal.
+    gloss_history_power: f32,
+    gloss_sigma_luminance: f32,
+    // Greatest luminance of accumulated specular light, as a multiple of that around.
+    gloss_clamp: f32,
+    // See `FilterSettings::gloss_parallax`.
+    gloss_parallax: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

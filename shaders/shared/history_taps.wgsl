@@ -21,6 +21,11 @@
 @group(0) @binding(4) var object: texture_2d<u32>;
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
 #endif
+#ifdef SPECULAR_SIGNAL
+#ifndef STILL
+@group(0) @binding(30) var reflection: texture_2d<u32>;
+#endif
+#endif
 #ifdef FEEDBACK
 @group(0) @binding(8) var feedback_previous: texture_2d<u32>;
 #endif
@@ -101,12 +106,23 @@ fn own_history(pixel: vec2<i32>) -> History {
 #else
 // Motion of the surface: its former place less its place, in pixels, and its former depth.
 fn motion_of(pixel: vec2<i32>, depth: f32) -> vec3<f32> {
+#ifdef SPECULAR_SIGNAL
+    return unpack_motion(textureLoad(reflection, pixel, 0).zw);
+#else
 #ifdef HOST_MOTION
     return unpack_motion(host_motion(pixel, depth).packed);
 #else
     return unpack_motion(textureLoad(motion, pixel, 0).xy);
 #endif
+#endif
 }
+
+#ifdef SPECULAR_SIGNAL
+// Motion of the reflection, in pixels, and the distance of what is reflected from its surface, see reflection.wgsl.
+fn reflection_at(pixel: vec2<i32>) -> vec3<f32> {
+    return unpack_motion(textureLoad(reflection, pixel, 0).xy);
+}
+#endif
 
 // The pixel's surface as it was in the last frame.
 fn origin_at(pixel: vec2<i32>, moved: vec3<f32>, normal: vec3<f32>) -> Origin {

@@ -4,9 +4,8 @@
 // from here.
 
 #import asvgf::color::{BRIGHTEST, is_finite, is_infinite, is_nan, sanitize}
-#import asvgf::packing::{INFINITE_SAMPLE, NO_SAMPLE, pack_rgb}
+#import asvgf::packing::{INFINITE_SAMPLE, NO_SAMPLE, pack_rgb, round_to_f16}
 #ifdef ALBEDO
-#import asvgf::packing::round_to_f16
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::is_missing
 #import asvgf::frame::{frame, inside}
@@ -16,6 +15,9 @@
 @group(0) @binding(25) var radiance: texture_2d<f32>;
 #ifdef ALBEDO
 @group(0) @binding(26) var albedo: texture_2d<f32>;
+#endif
+#ifdef SUMMED_ALBEDO
+@group(0) @binding(29) var reflectance: texture_2d<f32>;
 #endif
 #ifdef DIRECT_EMISSION
 @group(0) @binding(27) var emission: texture_2d<f32>;
@@ -52,7 +54,6 @@ fn clean(color: vec3<f32>) -> vec3<f32> {
     return sanitize(select(color, vec3(INFINITE), are_infinite(color)));
 }
 
-#ifdef ALBEDO
 // Limits of an albedo that divides. Failure: radiance over Cycles' albedo of a metal was a firefly of 1000 times the light, and the
 // image of a room was twice as bright. Reason: that albedo is what a single path saw in the metal, with zeros and values above 10,
 // so it is a random number itself. Rule: no surface reflects more than it receives, and hardly one, soot aside, less than 2 %. A
@@ -63,10 +64,9 @@ const MOST_ALBEDO: f32 = 1.0;
 // Largest albedo that is stored, below the limit of f16.
 const MOST_STORED: f32 = 65472.0;
 
-// The albedo that the filtered radiance is multiplied by; `hit` is true where there is a surface. An albedo that is no number is
-// unknown and divides by nothing.
-fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
-    let given = textureLoad(albedo, pixel, 0).xyz;
+// The albedo that the filtered radiance is multiplied by, from the one that the host gives; `hit` is true where there is a surface. An
+// albedo that is no number is unknown and divides by nothing.
+fn cleaned_albedo(given: vec3<f32>, hit: bool) -> vec3<f32> {
     let finite = are_finite(given);
 #ifdef DIAGNOSTICS
     count(given, finite);
@@ -76,6 +76,15 @@ fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
     a = select(vec3(1.0), clamp(a, vec3(LEAST_ALBEDO), vec3(MOST_ALBEDO)), hit);
 #endif
     return round_to_f16(a);
+}
+
+#ifdef ALBEDO
+fn host_albedo(pixel: vec2<i32>, hit: bool) -> vec3<f32> {
+#ifdef SUMMED_ALBEDO
+    return cleaned_albedo(textureLoad(albedo, pixel, 0).xyz + textureLoad(reflectance, pixel, 0).xyz, hit);
+#else
+    return cleaned_albedo(textureLoad(albedo, pixel, 0).xyz, hit);
+#endif
 }
 #endif
 

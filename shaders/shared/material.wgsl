@@ -108,15 +108,47 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
 const LEAST_DEMODULATION: f32 = 1e-3;
 
 // The demodulation: the filtered radiance is divided by the surface's reflectance, and multiplied by it again at the end. It is
-// rounded as the f16 texture in between stores it.
+// rounded as the f16 texture in between stores it. With GLOSS, specular light is divided by a reflectance of its own.
 fn demodulation(s: Surface) -> vec3<f32> {
-#ifdef SPECULAR
-    let reflectance = s.diffuse + s.reflectance;
+#ifdef GLOSS
+    return rounded_reflectance(s.diffuse);
 #else
-    let reflectance = s.diffuse;
+    return whole_demodulation(s);
 #endif
+}
+
+// The same for light of both lobes.
+fn whole_demodulation(s: Surface) -> vec3<f32> {
+#ifdef SPECULAR
+    return rounded_reflectance(s.diffuse + s.reflectance);
+#else
+    return rounded_reflectance(s.diffuse);
+#endif
+}
+
+fn rounded_reflectance(reflectance: vec3<f32>) -> vec3<f32> {
     return round_to_f16(clamp(reflectance, vec3(LEAST_DEMODULATION), vec3(1.0)));
 }
+
+#ifdef GLOSS
+// Least specular reflectance that divides.
+const LEAST_SPECULAR: f32 = 0.02;
+
+// Reflectance of the specular lobe for light from all around, as Karis approximates it ("Physically Based Shading on Mobile", 2014, after
+// Lazarov). It only has to be smooth and of the right size, because light is divided and multiplied by it.
+fn specular_demodulation(s: Surface) -> vec3<f32> {
+    if all(s.reflectance <= vec3(0.0)) {
+        return vec3(0.0);
+    }
+    let cosine = clamp(dot(s.normal, s.view), 0.0, 1.0);
+    let r = sqrt(s.alpha) * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    let a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
+    let scale = vec2(-1.04, 1.04) * a + r.zw;
+    let grazing = min(GRAZING * max(max(s.reflectance.x, s.reflectance.y), s.reflectance.z), s.edge);
+    let reflectance = s.reflectance * scale.x + vec3(grazing * max(scale.y, 0.0));
+    return round_to_f16(clamp(reflectance, vec3(LEAST_SPECULAR), vec3(1.0)));
+}
+#endif
 
 #ifdef SPECULAR
 // Part of the normal reflectance, 1/50, at which the grazing reflectance is full: without the one there is not the other either.
@@ -169,13 +201,17 @@ struct Scattering {
     value: vec3<f32>,
     // Solid-angle density with which `sample_direction` returns this direction.
     density: f32,
+#ifdef GLOSS
+    // The specular lobe's part of the value.
+    specular: vec3<f32>,
+#endif
 }
 
 fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
     let cosine = dot(s.normal, light);
     // Light must arrive above the true surface and above the interpolated one.
     if cosine <= 0.0 || dot(s.geometric, light) <= 0.0 {
-        return Scattering(vec3(0.0), 0.0);
+        return Scattering();
     }
 #ifdef SPECULAR
     let share = specular_share(s);
@@ -190,7 +226,11 @@ fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
     let value = s.diffuse * (1.0 - f) * (cosine / PI) + specular;
     // Density of visible normals (Heitz 2018, eq. 3) times the Jacobian 1 / (4 v·h).
     let visible = d / (4.0 * nv * (1.0 + lambda_view));
+#ifdef GLOSS
+    return Scattering(value, mix(cosine / PI, visible, share), specular);
+#else
     return Scattering(value, mix(cosine / PI, visible, share));
+#endif
 #else
     return Scattering(s.diffuse * (cosine / PI), cosine / PI);
 #endif

@@ -130,3 +130,26 @@ fn unpack_motion(bits: vec2<u32>) -> vec3<f32> {
 fn round_to_f16(x: vec3<f32>) -> vec3<f32> {
     return bitcast<vec3<f32>>((bitcast<vec3<u32>>(x) + 0x1000u) & vec3(0xffffe000u));
 }
+
+// Least displacement that is stored, 2⁻²⁴.
+const LEAST_DISPLACEMENT: f32 = 5.96e-8;
+
+// Packs a displacement into 32 bits: three signed 9-bit mantissas with a common exponent of 5 bits (compare RGB9E5 of
+// EXT_texture_shared_exponent). The largest component is exact to 2⁻⁸ of itself; displacements below 2⁻²⁴ count as none.
+fn pack_displacement(d: vec3<f32>) -> u32 {
+    let largest = max(max(abs(d.x), abs(d.y)), abs(d.z));
+    if !(largest >= LEAST_DISPLACEMENT) {
+        return 0u;
+    }
+    // The largest component is below 2^(exponent − 23).
+    let exponent = clamp(i32(bitcast<u32>(largest) >> 23u) - 126 + 23, 0, 31);
+    let scale = 255.0 * exp2(f32(23 - exponent));
+    let q = vec3<u32>(vec3<i32>(round(clamp(d * scale, vec3(-255.0), vec3(255.0))))) & vec3(0x1ffu);
+    return q.x | (q.y << 9u) | (q.z << 18u) | (u32(exponent) << 27u);
+}
+
+fn unpack_displacement(bits: u32) -> vec3<f32> {
+    let b = i32(bits);
+    let q = vec3<f32>(vec3((b << 23u) >> 23u, (b << 14u) >> 23u, (b << 5u) >> 23u));
+    return q * (exp2(f32(bits >> 27u) - 23.0) * (1.0 / 255.0));
+}

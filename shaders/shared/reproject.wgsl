@@ -9,6 +9,10 @@ struct Origin {
     position: vec3<f32>,
     normal: vec3<f32>,
     object: u32,
+#ifdef SPECULAR_SIGNAL
+    // Factor on the tolerated distances.
+    reach: f32,
+#endif
 }
 
 // Tolerances of `same_surface`: distance from the tangent plane and distance of the points, both in parts of the depth, and the
@@ -28,7 +32,11 @@ fn same_surface(origin: Origin, tap: vec2<i32>, guide: vec2<u32>, object: u32) -
     let normal = unpack_normal(guide.x);
     let offset = origin.position
         - seen_position(frame.previous, sample_point(frame.previous, vec2<f32>(tap)), depth);
+#ifdef SPECULAR_SIGNAL
+    let scale = origin.reach * scale_at(frame.previous, depth);
+#else
     let scale = scale_at(frame.previous, depth);
+#endif
     return abs(dot(normal, offset)) <= PLANE_TOLERANCE * scale
         && dot(offset, offset) <= SQUARED_DISTANCE * scale * scale
         && dot(normal, origin.normal) >= SAME_NORMAL;
@@ -36,5 +44,22 @@ fn same_surface(origin: Origin, tap: vec2<i32>, guide: vec2<u32>, object: u32) -
 
 fn origin_of(pixel: vec2<f32>, motion: vec3<f32>, normal: vec3<f32>, object: u32) -> Origin {
     let point = sample_point(frame.camera, pixel) + motion.xy;
-    return Origin(seen_position(frame.previous, point, motion.z), normal, object);
+    let position = seen_position(frame.previous, point, motion.z);
+#ifdef SPECULAR_SIGNAL
+    return Origin(position, normal, object, 1.0);
+#else
+    return Origin(position, normal, object);
+#endif
 }
+
+#ifdef SPECULAR_SIGNAL
+// Reach without limit, in depths.
+const ANYWHERE: f32 = 1e9;
+
+// The same surface anywhere on it, because a reflection may have been seen in another part of its mirror.
+fn in_mirror(origin: Origin) -> Origin {
+    var mirror = origin;
+    mirror.reach = ANYWHERE;
+    return mirror;
+}
+#endif

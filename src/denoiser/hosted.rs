@@ -7,7 +7,7 @@ use crate::frame::{Begun, Identity, LastFrame, Light, Motion, Resources, Source}
 use crate::gpu::frame::Moment;
 use crate::host::{self, Lambda, Reshade, Shading, Surfaces};
 use crate::passes::{Feature, HostView, Image, Pass, Slot, Traversal};
-use crate::plan::{Changes, HostInputs, Plan};
+use crate::plan::{Changes, HostInputs, PairInputs, Plan};
 use crate::settings::{Gradient, Mode};
 use wgpu::{CommandEncoder, Device, TextureFormat};
 
@@ -90,8 +90,11 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         let uniform = recorder.uniform(device, settings, &moment, &[]);
         // The longest frame: light in the target's texture is copied, and pairs may add passes.
         let passes = || {
-            let steps = |pairs| planned(&HostInputs { in_target: true, pairs, ..inputs }, changes).steps.len();
-            steps(false).max(steps(true))
+            let steps = |pairs| {
+                let light = HostInputs { in_target: true, specular: true, pairs, specular_pairs: pairs, ..inputs };
+                planned(&light, changes).steps.len()
+            };
+            steps(None).max(steps(Some(PairInputs::default())))
         };
         let mut recording = recorder.begin_counted(device, index, passes, uniform);
         let continued = kept.is_some();
@@ -140,6 +143,8 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
         let light = Light {
             textures: !inputs.albedo && !inputs.demodulated,
             emission: !inputs.emission && !inputs.demodulated,
+            specular: !inputs.specular,
+            summed: plan.features.has(Feature::SummedAlbedo),
         };
         let Some(begun) = denoiser.history.take_begun() else { return Err(Error::NotBegun) };
         let Begun { identity, mut moment, motion, mut recording, .. } = begun;

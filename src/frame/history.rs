@@ -70,6 +70,10 @@ pub(crate) struct Motion {
 pub(crate) struct Light {
     pub textures: bool,
     pub emission: bool,
+    /// True if specular light is part of it, false if that has a history of its own.
+    pub specular: bool,
+    /// True if it is divided by the sum of two reflectances.
+    pub summed: bool,
 }
 
 /// The facts that decide whether a frame continues another one.

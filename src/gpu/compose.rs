@@ -21,6 +21,8 @@ const SHARED: &[(&str, &str)] = &[
     ("sample", include_str!("../../shaders/shared/sample.wgsl")),
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
     ("history_taps", include_str!("../../shaders/shared/history_taps.wgsl")),
+    ("gloss", include_str!("../../shaders/shared/gloss.wgsl")),
+    ("specular_history", include_str!("../../shaders/shared/specular_history.wgsl")),
     ("means", include_str!("../../shaders/shared/means.wgsl")),
     ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
     ("outliers", include_str!("../../shaders/shared/outliers.wgsl")),

@@ -37,6 +37,10 @@ pub(crate) struct FrameUniform {
     ridge_noise: f32,
     steadiness: f32,
     outlier_limit: f32,
+    gloss_history_power: f32,
+    gloss_sigma_luminance: f32,
+    gloss_clamp: f32,
+    gloss_parallax: f32,
 }
 
 /// The constants that differ from frame to frame.
@@ -65,9 +69,9 @@ impl FrameUniform {
         #[cfg(not(feature = "path-tracer"))]
         let [seed, samples, bounces, roulette] = [0, 1, 0, 0];
         // The noise-subtracting stop compares squares.
-        let sigma_luminance = match f.stops {
-            Stops::NoiseSubtracted => f.sigma_luminance * f.sigma_luminance,
-            Stops::Classic => f.sigma_luminance,
+        let stop = |sigma: f32| match f.stops {
+            Stops::NoiseSubtracted => sigma * sigma,
+            Stops::Classic => sigma,
         };
         let (alpha, max_history) = if moment.converges { (0.0, LONGEST_HISTORY) } else { (f.alpha, f.max_history) };
         Self {
@@ -87,7 +91,7 @@ impl FrameUniform {
             max_history,
             history_power: f.history_power,
             gradient_gamma: f.gradient_gamma,
-            sigma_luminance,
+            sigma_luminance: stop(f.sigma_luminance),
             sigma_depth: f.sigma_depth,
             sigma_normal: f.sigma_normal,
             ridge: f.ridge,
@@ -99,6 +103,10 @@ impl FrameUniform {
             ridge_noise: f.ridge_noise,
             steadiness: f.steadiness,
             outlier_limit: f.outlier_limit,
+            gloss_history_power: f.gloss_history_power,
+            gloss_sigma_luminance: stop(f.gloss_sigma_luminance),
+            gloss_clamp: f.gloss_clamp,
+            gloss_parallax: f.gloss_parallax,
         }
     }
 }
@@ -167,7 +175,8 @@ mod tests {
         use crate::twins::layout::{assert_layout, fields};
         let fields = fields!(FrameUniform: size, strata, camera, previous, index, seed, continued, samples, batch, first_sample, bounces, roulette,
             alpha, max_history, history_power, gradient_gamma, sigma_luminance, sigma_depth, sigma_normal, ridge, effective_pairs,
-            dead_zone, lambda_block, converged, sigma_foreshortening, ridge_noise, steadiness, outlier_limit);
+            dead_zone, lambda_block, converged, sigma_foreshortening, ridge_noise, steadiness, outlier_limit,
+            gloss_history_power, gloss_sigma_luminance, gloss_clamp, gloss_parallax);
         assert_layout("Frame", fields, size_of::<FrameUniform>());
     }
 }

@@ -68,6 +68,8 @@ pub struct Shading<'a> {
     pub pairs: Option<Pairs<'a>>,
     /// λ itself, for [`Gradient::Lambda`](crate::Gradient::Lambda).
     pub lambda: Option<Lambda<'a>>,
+    /// The specular part of the light, or what is known of it.
+    pub gloss: Option<Gloss<'a>>,
     /// The view that receives linear radiance: an `rgba16float` or `rgba32float` view of the denoiser's size, with storage usage.
     pub target: &'a TextureView,
 }
@@ -97,8 +99,52 @@ impl<'a> Surfaces<'a> {
 impl<'a> Shading<'a> {
     /// Makes a shading of radiance alone, which contains its emission and textures.
     pub fn new(radiance: &'a TextureView, target: &'a TextureView) -> Self {
-        Self { radiance, albedo: None, emission: None, demodulated: false, pairs: None, lambda: None, target }
+        Self {
+            radiance,
+            albedo: None,
+            emission: None,
+            demodulated: false,
+            pairs: None,
+            lambda: None,
+            gloss: None,
+            target,
+        }
     }
+}
+
+/// The light that surfaces reflect by their specular lobes, and the facts that place reflections.
+///
+/// Reflections do not move with the surface that shows them. Hand in whatever the renderer has; the denoiser does the best with any
+/// subset:
+///
+/// - **With `radiance`**, specular light is a signal of its own, and [`Shading::radiance`] is the diffuse light alone (with emission,
+///   unless it is `demodulated`). The specular history follows reflections, by the roughness and by the distance of what is reflected.
+/// - **Without `radiance`**, [`Shading::radiance`] holds all light. Roughness and reflectance say where reflections would smear, and
+///   shorten the history there. If both `reflectance` and [`Shading::albedo`] are given, light is divided by their sum.
+///
+/// All views are of the denoiser's size and have `TEXTURE_BINDING` usage.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Gloss<'a> {
+    /// Noisy specular radiance, in the formats of [`Shading::radiance`]: the light of paths that leave the visible surface by its specular
+    /// lobe. It is multiplied by `reflectance`, unless [`Shading::demodulated`].
+    pub radiance: Option<&'a TextureView>,
+    /// Part of the light from all around that the specular lobe reflects towards the eye, 0…1, in the formats of [`Shading::albedo`]:
+    /// the pre-integrated reflectance of that angle and roughness, or F₀. 0 where there is no specular lobe. Radiance is divided by it
+    /// before filtering (by at least 0.02) and multiplied by it afterwards. Without it, all surfaces count as glossy.
+    pub reflectance: Option<&'a TextureView>,
+    /// Perceptual roughness, 0…1, the square root of the GGX width α: first channel of `r8unorm`, `r16float`, `r32float` or `rg…` of
+    /// these, or fourth channel of `rgba8unorm`, `rgba16float` or `rgba32float`, where renderers keep it beside the normal. Without it,
+    /// 0.35.
+    pub roughness: Option<&'a TextureView>,
+    /// Distance from the visible surface to what the pixel's specular path met first, in the world's unit, in the formats of
+    /// [`Surfaces::depth`]. +∞ is the sky; 0, negative and NaN say that it is unknown. Needs `radiance`.
+    pub hit_distance: Option<&'a TextureView>,
+    /// Place of the reflected point in the previous frame's image less the pixel's, in the formats and units of [`Surfaces::motion`].
+    /// NaN and infinite say that it is unknown: it then follows from the distance. Needs `radiance`.
+    pub motion: Option<&'a TextureView>,
+    /// Pairs of the specular light, for [`Gradient::Pairs`](crate::Gradient::Pairs). Without them, its gradient comes from statistics.
+    /// Needs `radiance`.
+    pub pairs: Option<Pairs<'a>>,
 }
 
 /// Radiances of some surface samples in the last frame, and of the same paths in this one: the gradient's measurements.

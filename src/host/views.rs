@@ -1,9 +1,9 @@
 //! Checks of the host's views when they are handed in, and the features that follow from them.
 
-use super::{Lambda, Pairs, Shading, Surfaces};
+use super::{Gloss, Lambda, Pairs, Shading, Surfaces};
 use crate::Error;
 use crate::passes::{Grid, HostView};
-use crate::plan::{Changes, HostInputs};
+use crate::plan::{Changes, HostInputs, PairInputs};
 use crate::settings::{Gradient, Mode, Settings};
 use wgpu::TextureFormat::{self, *};
 use wgpu::{TextureDimension, TextureUsages, TextureView};
@@ -48,6 +48,12 @@ const ALBEDO_WORDS: &str = "rgba8unorm, bgra8unorm (-srgb too), rgb10a2unorm, rg
 const PAIR: &[TextureFormat] = &[Rgba16Float, Rgba32Float];
 const LUMINANCE_PAIR: &[TextureFormat] = &[R16Float, R32Float];
 const PAIR_WORDS: &str = "rgba16float or rgba32float (radiance), or r16float or r32float (luminance)";
+
+const ROUGHNESS: &[TextureFormat] = &[R8Unorm, R16Float, R32Float, Rg8Unorm, Rg16Float, Rg32Float];
+const ROUGHNESS_IN_ALPHA: &[TextureFormat] = &[Rgba8Unorm, Rgba16Float, Rgba32Float];
+const ROUGHNESS_WORDS: &str = "r8unorm, r16float, r32float or two channels of these (the first), or rgba8unorm, rgba16float or rgba32float (the fourth)";
+const HIT_DISTANCE_WORDS: &str =
+    "r32float, r16float, rg16float, rg32float, rgba16float or rgba32float (a distance in the first channel)";
 
 const LAMBDA: &[TextureFormat] =
     &[R8Unorm, R16Float, R32Float, Rg8Unorm, Rg16Float, Rg32Float, Rgba8Unorm, Rgba16Float, Rgba32Float];
@@ -137,6 +143,13 @@ impl<'a> Shading<'a> {
             HostView::PairNow => self.pairs.map(|pairs| pairs.current),
             HostView::PairBefore => self.pairs.map(|pairs| pairs.previous),
             HostView::Lambda => self.lambda.map(|lambda| lambda.view),
+            HostView::SpecularRadiance => self.gloss?.radiance,
+            HostView::Reflectance => self.gloss?.reflectance,
+            HostView::Roughness => self.gloss?.roughness,
+            HostView::HitDistance => self.gloss?.hit_distance,
+            HostView::ReflectionMotion => self.gloss?.motion,
+            HostView::SpecularPairNow => Some(self.gloss?.pairs?.current),
+            HostView::SpecularPairBefore => Some(self.gloss?.pairs?.previous),
             _ => None,
         }
     }
@@ -180,20 +193,26 @@ pub(crate) fn shading(
     inputs.albedo = given.albedo.is_some();
     inputs.emission = given.emission.is_some();
     inputs.demodulated = given.demodulated;
-    let light = [Some(given.radiance), given.albedo, given.emission];
+    let Gloss { radiance, reflectance, roughness, .. } = given.gloss.unwrap_or_default();
+    let light = [Some(given.radiance), given.albedo, given.emission, radiance, reflectance, roughness];
     inputs.in_target = light.into_iter().flatten().any(|view| view.texture() == given.target.texture());
+    let specular_pairs = gloss(inputs, given.gloss.unwrap_or_default(), size)?;
     if settings.mode != Mode::Denoise {
         return Ok(());
     }
-    inputs.pairs = given.pairs.is_some();
+    inputs.pairs = given.pairs.map(|_| PairInputs::default());
+    inputs.specular_pairs = specular_pairs.map(|_| PairInputs::default());
     inputs.lambda = given.lambda.is_some();
     let missing = |view, setting, remedy| Error::ViewMissing { view, setting, remedy };
-    match settings.filter.gradient.hosted(inputs.lambda, inputs.pairs) {
+    match settings.filter.gradient.hosted(inputs.lambda, inputs.pairs.is_some()) {
         // Pairs are not needed, because the scene has not changed.
         Gradient::Pairs if !changes.scene => Ok(()),
         Gradient::Pairs => {
             let none = missing("pairs", "Gradient::Pairs", "fill `Shading::pairs`, or choose Gradient::Automatic");
-            pairs(inputs, given.pairs.as_ref().ok_or(none)?, size)
+            inputs.pairs = Some(pairs(PAIRS, given.pairs.as_ref().ok_or(none)?, size)?);
+            let specular = specular_pairs.map(|given| pairs(SPECULAR_PAIRS, &given, size)).transpose()?;
+            inputs.specular_pairs = specular;
+            Ok(())
         }
         Gradient::Lambda => {
             let none = missing("lambda", "Gradient::Lambda", "fill `Shading::lambda`, or choose Gradient::Automatic");
@@ -203,22 +222,54 @@ pub(crate) fn shading(
     }
 }
 
-fn pairs(inputs: &mut HostInputs, given: &Pairs<'_>, size: [u32; 2]) -> Result<(), Error> {
+/// Names of a view of pairs now, of one before, and of what the latter's format must match.
+const PAIRS: [&str; 2] = ["pairs.current", "pairs.previous"];
+const SPECULAR_PAIRS: [&str; 2] = ["gloss.pairs.current", "gloss.pairs.previous"];
+
+/// Checks pairs, and notes their contents.
+fn pairs([now, before]: [&'static str; 2], given: &Pairs<'_>, size: [u32; 2]) -> Result<PairInputs, Error> {
     let texture = given.current.texture();
     let found = [texture.width(), texture.height()];
     // A 1×1 image has one pixel and one stratum: it does not matter which is meant.
-    inputs.stratum_pairs = found == Grid::Strata.extent(size) && !given.in_place;
-    inputs.pairs_in_place = given.in_place;
-    let size = if inputs.stratum_pairs { found } else { size };
-    let current = read("pairs.current", given.current, size, &[PAIR, LUMINANCE_PAIR], PAIR_WORDS)?;
-    inputs.luminance_pairs = LUMINANCE_PAIR.contains(&current);
-    let (list, words) = if inputs.luminance_pairs {
+    let per_stratum = found == Grid::Strata.extent(size) && !given.in_place;
+    let size = if per_stratum { found } else { size };
+    let current = read(now, given.current, size, &[PAIR, LUMINANCE_PAIR], PAIR_WORDS)?;
+    let luminance = LUMINANCE_PAIR.contains(&current);
+    let (list, words) = if luminance {
         (LUMINANCE_PAIR, "r16float or r32float, as pairs.current holds luminances")
     } else {
         (PAIR, "rgba16float or rgba32float, as pairs.current holds radiances")
     };
-    read("pairs.previous", given.previous, size, &[list], words)?;
-    Ok(())
+    read(before, given.previous, size, &[list], words)?;
+    Ok(PairInputs { luminance, per_stratum, in_place: given.in_place })
+}
+
+/// Checks the views of gloss, notes their contents, and returns the specular pairs.
+fn gloss<'a>(inputs: &mut HostInputs, given: Gloss<'a>, size: [u32; 2]) -> Result<Option<Pairs<'a>>, Error> {
+    if let Some(view) = given.radiance {
+        read("gloss.radiance", view, size, &[RADIANCE], RADIANCE_WORDS)?;
+    }
+    if let Some(view) = given.reflectance {
+        read("gloss.reflectance", view, size, &[ALBEDO], ALBEDO_WORDS)?;
+    }
+    if let Some(view) = given.roughness {
+        let format = read("gloss.roughness", view, size, &[ROUGHNESS, ROUGHNESS_IN_ALPHA], ROUGHNESS_WORDS)?;
+        inputs.roughness_in_alpha = ROUGHNESS_IN_ALPHA.contains(&format);
+    }
+    // These place a signal of its own, and are not looked at without one.
+    let split = given.radiance.is_some();
+    if let Some(view) = given.hit_distance.filter(|_| split) {
+        read("gloss.hit_distance", view, size, &[DEPTH], HIT_DISTANCE_WORDS)?;
+    }
+    if let Some(view) = given.motion.filter(|_| split) {
+        read("gloss.motion", view, size, &[MOTION], MOTION_WORDS)?;
+    }
+    inputs.specular = split;
+    inputs.reflectance = given.reflectance.is_some();
+    inputs.roughness = given.roughness.is_some();
+    inputs.hit_distance = split && given.hit_distance.is_some();
+    inputs.reflection_motion = split && given.motion.is_some();
+    Ok(given.pairs.filter(|_| split))
 }
 
 fn lambda(inputs: &mut HostInputs, given: &Lambda<'_>, size: [u32; 2]) -> Result<(), Error> {

@@ -15,9 +15,11 @@ pub(crate) static PASS: Pass = Pass {
         knows(FullKernel).unless(SmallKernel),
         knows(LocalLinearFit),
         knows(RidgeByNoise),
+        knows(SpecularSignal),
     ]],
     bindings: &[&[
         now("guide", Image::Guide).at_many_taps(),
+        now("reflection", Image::Reflection).with(SpecularSignal),
         turn("color", Image::Color).at_many_taps(),
         next_turn_out("color_out", Image::Color),
         out("feedback_out", Image::Feedback).with(Feedback),

@@ -42,6 +42,20 @@ pub enum HostView {
     PairBefore,
     /// [`Lambda::view`](crate::Lambda::view).
     Lambda,
+    /// [`Gloss::radiance`](crate::Gloss::radiance).
+    SpecularRadiance,
+    /// [`Gloss::reflectance`](crate::Gloss::reflectance).
+    Reflectance,
+    /// [`Gloss::roughness`](crate::Gloss::roughness).
+    Roughness,
+    /// [`Gloss::hit_distance`](crate::Gloss::hit_distance).
+    HitDistance,
+    /// [`Gloss::motion`](crate::Gloss::motion).
+    ReflectionMotion,
+    /// [`Pairs::current`](crate::Pairs::current) of [`Gloss::pairs`](crate::Gloss::pairs).
+    SpecularPairNow,
+    /// [`Pairs::previous`](crate::Pairs::previous) of [`Gloss::pairs`](crate::Gloss::pairs).
+    SpecularPairBefore,
 }
 
 impl HostView {
@@ -59,6 +73,41 @@ impl HostView {
             Self::PairNow => "pair now",
             Self::PairBefore => "pair before",
             Self::Lambda => "lambda",
+            Self::SpecularRadiance => "specular radiance",
+            Self::Reflectance => "reflectance",
+            Self::Roughness => "roughness",
+            Self::HitDistance => "hit distance",
+            Self::ReflectionMotion => "motion of reflections",
+            Self::SpecularPairNow => "specular pair now",
+            Self::SpecularPairBefore => "specular pair before",
+        }
+    }
+}
+
+impl Slot {
+    /// The slot of a step of the specular signal, where the diffuse signal's step has this one.
+    pub(super) fn specular(self, features: Features) -> Self {
+        match self {
+            // Both signals find the last frame's surfaces there, and repeat the same paths.
+            Self::Before(Image::Guide) => self,
+            Self::Now(Image::Samples) | Self::Before(Image::Samples) if features.has(Feature::Reshade) => self,
+            Self::Now(image) => Self::Now(image.specular()),
+            Self::Before(image) => Self::Before(image.specular()),
+            Self::Host(view) => Self::Host(view.specular()),
+            Self::Target => self,
+        }
+    }
+}
+
+impl HostView {
+    /// The specular signal's view, or the view itself if both signals share it.
+    fn specular(self) -> Self {
+        match self {
+            Self::Radiance => Self::SpecularRadiance,
+            Self::Albedo => Self::Reflectance,
+            Self::PairNow => Self::SpecularPairNow,
+            Self::PairBefore => Self::SpecularPairBefore,
+            shared => shared,
         }
     }
 }
@@ -89,6 +138,8 @@ pub(crate) struct Binding {
     none: Features,
     /// True to read it as a storage texture if the step has [`Feature::StorageReads`].
     storage: bool,
+    /// The signal that the image is of, whichever signal's step it is: true for the specular one, false for the diffuse one.
+    of: Option<bool>,
 }
 
 /// The place at which a step finds the image of a binding.
@@ -171,7 +222,7 @@ pub(super) const fn target(name: &'static str) -> Binding {
 impl Binding {
     const fn new(name: &'static str, source: Source, written: bool) -> Self {
         let none = Features::of(&[]);
-        Self { name, source, written, host: None, all: none, any: none, none, storage: false }
+        Self { name, source, written, host: None, all: none, any: none, none, storage: false, of: None }
     }
 
     /// Binds the image only if the step has this feature.
@@ -199,6 +250,16 @@ impl Binding {
         Self { storage: true, ..self }
     }
 
+    /// Binds the specular signal's image, in a step that brings the signals together.
+    pub(super) const fn of_specular(self) -> Self {
+        Self { of: Some(true), ..self }
+    }
+
+    /// Binds the surfaces' image in a step of the specular signal too.
+    pub(super) const fn of_surfaces(self) -> Self {
+        Self { of: Some(false), ..self }
+    }
+
     /// True if a step with these features has this binding.
     pub(super) fn is_bound(&self, features: Features) -> bool {
         features.has_all(self.all)
@@ -216,8 +277,8 @@ impl Binding {
         self.written
     }
 
-    /// The binding of a step with these features.
-    pub(super) fn resolve(&self, features: Features, nth: Nth) -> Bound {
+    /// The binding of a step with these features, of a signal with those of the plan.
+    pub(super) fn resolve(&self, features: Features, plan: Features, nth: Nth) -> Bound {
         let take_turns = |offset: u32| ((nth.turn + offset) % 2) as u8;
         let slot = match (self.host, self.source) {
             (Some((feature, view)), _) if features.has(feature) => Slot::Host(view),
@@ -230,6 +291,8 @@ impl Binding {
             (_, Source::Host(view)) => Slot::Host(view),
             (_, Source::Target) => Slot::Target,
         };
+        let specular = self.of.unwrap_or(plan.has(Feature::SpecularSignal));
+        let slot = if specular { slot.specular(plan) } else { slot };
         Bound { name: self.name, slot, written: self.written }
     }
 }

@@ -148,6 +148,26 @@ features! {
     RepeatedNoise,
     /// α and λ are kept for views.
     KeepWeights,
+    /// Specular light is a signal of its own: history, gradient, filter.
+    Gloss,
+    /// The step is one of the specular signal.
+    SpecularSignal,
+    /// One radiance holds diffuse and specular light: the histories of glossy surfaces are short where reflections slide over them.
+    MixedGloss,
+    /// The host gives the roughness.
+    Roughness,
+    /// The roughness is the fourth channel of its image.
+    RoughnessInAlpha,
+    /// The host gives the distance from a surface to what it reflects.
+    HitDistance,
+    /// The motion of reflections is given.
+    ReflectionMotion,
+    /// The reflectance of the specular lobe is given.
+    Reflectance,
+    /// Mixed light is divided by the sum of the albedo and of the specular reflectance.
+    SummedAlbedo,
+    /// What the spatial filter takes in is at most a multiple of what is around.
+    Clamp,
     /// The sum of earlier dispatches' paths is added to this one's.
     EarlierPaths,
     /// Later dispatches trace the other paths.

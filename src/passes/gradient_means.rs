@@ -6,10 +6,14 @@ pub(crate) static PASS: Pass = Pass {
     name: "gradient_means",
     source: include_str!("../../shaders/gradient_means.wgsl"),
     grid: Strata,
-    features: &[shared::HOST_INPUT, &[knows(Objects), knows(Feedback), knows(MissingSamples), knows(Outliers)]],
+    features: &[
+        shared::HOST_INPUT,
+        &[knows(Objects), knows(Feedback), knows(MissingSamples), knows(Outliers), knows(SpecularSignal)],
+    ],
     bindings: &[
         shared::SAMPLE_AND_HISTORY,
         shared::SAME_SURFACE,
+        shared::AGREEMENT,
         &[
             now("limit", Image::OutlierLimit).with(Outliers),
             out("samples_out", Image::Samples),

@@ -66,6 +66,75 @@ pub enum Image {
     CandidateSums,
     /// Greatest ratio of a sample to its level in each stratum, and that level if there is no history.
     OutlierLimit,
+    /// The same of specular light, and the sum of the inverse distances of what is reflected.
+    SpecularPaths(u8),
+    /// Roughness, and the distance from the surface to what it reflects, of each path.
+    Gloss,
+    /// Motion of the reflection and its smoothed distance from the surface; motion of the surface and its previous depth.
+    Reflection,
+    /// Evidence of each stratum for the reflection's former place against the surface's.
+    Agreement,
+    /// The specular signal's twin of an image of the diffuse one.
+    Specular(Twin),
+}
+
+/// Declares the twins, each with the name of its image.
+macro_rules! twins {
+    ($($name:ident $(($n:ident: $ty:ty))?,)+) => {
+        /// An image of which each signal has its own: the specular signal's twin of the [`Image`] of the same name.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Twin {
+            $(
+                #[doc = concat!("The twin of [`Image::", stringify!($name), "`].")]
+                $name $(($ty))?,
+            )+
+        }
+
+        impl Twin {
+            /// The diffuse signal's image.
+            pub fn image(self) -> Image {
+                match self {
+                    $(Self::$name $(($n))? => Image::$name $(($n))?,)+
+                }
+            }
+        }
+
+        impl Image {
+            /// The specular signal's image: the twin, or the image itself if both signals share it.
+            pub(crate) fn specular(self) -> Self {
+                match self {
+                    $(Self::$name $(($n))? => Self::Specular(Twin::$name $(($n))?),)+
+                    shared => shared,
+                }
+            }
+        }
+    };
+}
+
+twins! {
+    Guide,
+    Radiance,
+    Albedo,
+    History,
+    Feedback,
+    Color(turn: u8),
+    Samples,
+    HostPairNow,
+    HostPairBefore,
+    PairMomentsNow(turn: u8),
+    PairMomentsBefore(turn: u8),
+    MeansNow(level: u8),
+    MeansBefore(level: u8),
+    Gradient(turn: u8),
+    Ratio,
+    Weights,
+    Reprojected,
+    Output,
+    Candidates,
+    CandidateCounts,
+    CandidateSums,
+    OutlierLimit,
 }
 
 /// The texels of an image, or the invocations of a pass.
@@ -83,9 +152,12 @@ const MEANS_BEFORE: [&str; 6] =
     ["means before 0", "means before 1", "means before 2", "means before 3", "means before 4", "means before 5"];
 
 impl Image {
-    /// Name of the image, with its number if it takes turns or has levels.
-    pub fn name(self) -> &'static str {
-        self.row().0
+    /// Name of the image, with its signal if that is the specular one, and its number if it takes turns or has levels.
+    pub fn name(self) -> String {
+        match self {
+            Self::Specular(twin) => format!("specular {}", twin.image().name()),
+            _ => self.row().0.into(),
+        }
     }
 
     /// Format of the texture.
@@ -130,6 +202,8 @@ impl Image {
             Self::Sum => ("sum", Rgba32Float, Pixels),
             Self::Paths(0) => ("paths 0", Rgba32Float, Pixels),
             Self::Paths(_) => ("paths 1", Rgba32Float, Pixels),
+            Self::SpecularPaths(0) => ("specular paths 0", Rgba32Float, Pixels),
+            Self::SpecularPaths(_) => ("specular paths 1", Rgba32Float, Pixels),
             Self::Weights => ("weights", Rg32Float, Pixels),
             Self::Reprojected => ("reprojected", Rg32Uint, Pixels),
             Self::Output => ("output", Rg32Uint, Pixels),
@@ -137,6 +211,12 @@ impl Image {
             Self::CandidateCounts => ("candidate counts", Rgba32Uint, Strata),
             Self::CandidateSums => ("candidate sums", Rgba32Uint, Strata),
             Self::OutlierLimit => ("outlier limit", Rgba32Uint, Strata),
+            Self::Gloss => ("gloss", R32Uint, Pixels),
+            Self::Reflection => ("reflection", Rgba32Uint, Pixels),
+            Self::Agreement => ("agreement", Rgba32Uint, Strata),
+            // The path tracer keeps the distance of what is reflected beside it.
+            Self::Specular(Twin::Radiance) => ("specular radiance", Rgba32Uint, Pixels),
+            Self::Specular(twin) => twin.image().row(),
         }
     }
 }

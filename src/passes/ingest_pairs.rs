@@ -16,7 +16,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(Diagnostics),
     ]],
     bindings: &[&[
-        now("guide", Image::Guide),
+        now("guide", Image::Guide).of_surfaces(),
         host("current", HostView::PairNow),
         host("previous", HostView::PairBefore),
         now("albedo", Image::Albedo).or_host(HostLight, HostView::Albedo).with(Albedo).with(Modulated),

@@ -13,7 +13,10 @@ mod shared;
 mod step;
 mod traversal;
 
+pub(crate) mod agreement;
 pub(crate) mod atrous;
+#[cfg(feature = "path-tracer")]
+pub(crate) mod gloss_surface;
 pub(crate) mod gradient;
 pub(crate) mod gradient_filter;
 pub(crate) mod gradient_means;
@@ -22,12 +25,14 @@ pub(crate) mod gradient_of_means;
 pub(crate) mod gradient_pairs;
 pub(crate) mod gradient_pairs_filter;
 pub(crate) mod gradient_sample;
+pub(crate) mod ingest_gloss;
 pub(crate) mod ingest_pairs;
 pub(crate) mod ingest_radiance;
 pub(crate) mod ingest_surface;
 pub(crate) mod outlier_candidates;
 pub(crate) mod outlier_counts;
 pub(crate) mod outlier_limit;
+pub(crate) mod reflection;
 pub(crate) mod reshade;
 pub(crate) mod resolve;
 pub(crate) mod steady;
@@ -41,7 +46,7 @@ pub(crate) mod visibility;
 
 pub use binding::{Bound, HostView, Slot};
 pub use feature::{Feature, Features};
-pub use image::{Grid, Image};
+pub use image::{Grid, Image, Twin};
 pub use pass::Pass;
 #[cfg(feature = "path-tracer")]
 pub(crate) use scene_binding::SceneBinding;

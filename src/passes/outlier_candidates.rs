@@ -6,10 +6,15 @@ pub(crate) static PASS: Pass = Pass {
     name: "outlier_candidates",
     source: include_str!("../../shaders/outlier_candidates.wgsl"),
     grid: Strata,
-    features: &[shared::HOST_INPUT, &[knows(Still), knows(InPlace), knows(MissingSamples), knows(Steady)]],
+    features: &[
+        shared::HOST_INPUT,
+        &[knows(Still), knows(InPlace), knows(MissingSamples), knows(Steady), knows(SpecularSignal).unless(Still)],
+    ],
     bindings: &[
         shared::SAMPLE_AND_HISTORY,
         &[
+            now("motion", Image::Motion).or_host(HostMotion, HostView::Motion).unless(Still).unless(SpecularSignal),
+            host("previous_depth", HostView::PreviousDepth).with(PreviousDepth).unless(Still).unless(SpecularSignal),
             now("samples", Image::Samples).with(InPlace),
             before("candidates_previous", Image::Candidates),
             before("limit_previous", Image::OutlierLimit),

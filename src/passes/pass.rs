@@ -38,9 +38,9 @@ impl Pass {
         self.features.iter().copied().flatten().filter_map(|known| known.of(plan)).collect()
     }
 
-    /// The bindings that a step with these features has.
-    pub(crate) fn bindings_of(&self, features: Features, nth: Nth) -> Vec<Bound> {
-        self.bound(features).map(|binding| binding.resolve(features, nth)).collect()
+    /// The bindings that a step with these features has, of a signal with those of the plan.
+    pub(crate) fn bindings_of(&self, features: Features, plan: Features, nth: Nth) -> Vec<Bound> {
+        self.bound(features).map(|binding| binding.resolve(features, plan, nth)).collect()
     }
 
     /// True if a shader with these features can bind the images that it reads at many taps as storage: WebGPU binds four storage

@@ -66,7 +66,7 @@ impl Step {
     /// One of several steps of a pass.
     pub(crate) fn nth(pass: &'static Pass, plan: Features, nth: Nth) -> Self {
         let features = pass.features_of(plan);
-        let bindings = pass.bindings_of(features, nth);
+        let bindings = pass.bindings_of(features, plan, nth);
         Self { pass, features, iteration: nth.iteration, batch: nth.batch, view: None, bindings }
     }
 

@@ -21,6 +21,7 @@ pub(crate) static PASS: Pass = Pass {
             knows(Reshade),
             knows(EarlierPaths),
             knows(LaterPaths),
+            knows(Gloss),
         ],
     ],
     bindings: &[&[
@@ -29,6 +30,9 @@ pub(crate) static PASS: Pass = Pass {
         now("samples", Image::Samples).with(Reshade),
         other_turn("paths_before", Image::Paths).with(EarlierPaths),
         turn_out("paths_out", Image::Paths).with(LaterPaths),
+        other_turn("specular_paths_before", Image::SpecularPaths).with(EarlierPaths).with(Gloss),
+        turn_out("specular_paths_out", Image::SpecularPaths).with(LaterPaths).with(Gloss),
+        out("specular_radiance_out", Image::Radiance).of_specular().with(Gloss).unless(LaterPaths),
         out("radiance_out", Image::Radiance).unless(LaterPaths),
         out("albedo_out", Image::Albedo).unless(LaterPaths),
         out("emission_out", Image::Emission).with(DirectEmission).unless(LaterPaths),

@@ -6,7 +6,15 @@ pub(crate) static PASS: Pass = Pass {
     name: "variance",
     source: include_str!("../../shaders/variance.wgsl"),
     grid: Pixels,
-    features: &[&[knows(Feedback), knows(VarianceOfMean), knows(MissingSamples), knows(RepeatedNoise)]],
+    features: &[&[
+        knows(Feedback),
+        knows(VarianceOfMean),
+        knows(MissingSamples),
+        knows(RepeatedNoise),
+        knows(SpecularSignal),
+        knows(Clamp).with(SpecularSignal),
+        knows(Clamp).with(MixedGloss),
+    ]],
     bindings: &[&[
         now("guide", Image::Guide),
         now("history", Image::History),

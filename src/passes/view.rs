@@ -43,6 +43,8 @@ const REPEATED: &[(Need, &str)] = &[
 const RADIANCE: Binding = now("radiance", Image::Radiance);
 const ALBEDO: Binding = now("albedo", Image::Albedo);
 const EMISSION: Binding = now("emission", Image::Emission);
+const SPECULAR_RADIANCE: Binding = now("specular_radiance", Image::Radiance).of_specular();
+const SPECULAR_ALBEDO: Binding = now("specular_albedo", Image::Albedo).of_specular();
 const GUIDE: Binding = now("guide", Image::Guide);
 const MOTION: Binding = now("motion", Image::Motion);
 const WEIGHTS: Binding = now("weights", Image::Weights);
@@ -66,9 +68,13 @@ const fn row(view: View) -> Row {
                         knows(Background),
                         knows(Albedo),
                         knows(DirectEmission),
+                        knows(Gloss),
+                        knows(Reflectance).with(Gloss),
                     ],
                     bindings: &[
                         COLOR,
+                        chosen("specular_color").of_specular().with(Gloss),
+                        SPECULAR_ALBEDO.with(Gloss).with(Reflectance),
                         RADIANCE.with(Background),
                         GUIDE.with(Background),
                         ALBEDO.with(Albedo),
@@ -80,8 +86,14 @@ const fn row(view: View) -> Row {
         View::Noisy => {
             const {
                 Row {
-                    features: &[knows(Albedo), knows(DirectEmission)],
-                    bindings: &[RADIANCE, ALBEDO.with(Albedo), EMISSION.with(DirectEmission)],
+                    features: &[knows(Albedo), knows(DirectEmission), knows(Gloss), knows(Reflectance).with(Gloss)],
+                    bindings: &[
+                        RADIANCE,
+                        ALBEDO.with(Albedo),
+                        EMISSION.with(DirectEmission),
+                        SPECULAR_RADIANCE.with(Gloss),
+                        SPECULAR_ALBEDO.with(Gloss).with(Reflectance),
+                    ],
                     ..PLAIN
                 }
             }
@@ -242,7 +254,7 @@ pub(crate) fn step(
         .iter()
         .chain([&TARGET])
         .filter(|binding| binding.is_bound(features))
-        .map(|binding| binding.resolve(features, Nth::of(image)))
+        .map(|binding| binding.resolve(features, features, Nth::of(image)))
         .collect();
     if bindings.iter().any(|bound| matches!(bound.slot, Slot::Now(image) if !holds(image))) {
         return Err("its image was not kept: set DenoiserDescriptor::views");

@@ -2,7 +2,7 @@
 
 #[cfg(feature = "path-tracer")]
 use super::{Batches, SceneContents};
-use super::{Changes, Decision, Feature, HostInputs};
+use super::{Changes, Decision, Feature, Features, HostInputs};
 use crate::settings::{self, Blend, FilterSettings, Kernel, Mode, Settings, Stops, Variance};
 use Feature::*;
 
@@ -67,19 +67,54 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
         (LightSamplesOnly, sampling == Sampling::Lights, ["the settings say so", "scattered rays find light too"]),
         (ScatteredRaysOnly, sampling == Sampling::Scattered, ["the settings say so", "lights are sampled too"]),
         (LaterPaths, divided, ["a dispatch of all paths might be ended as hung", "one dispatch traces all paths"]),
+        (
+            Gloss,
+            is_split(contents, settings),
+            ["something shines: specular light is a signal of its own", "nothing shines, or all light is one signal"],
+        ),
+        (Reflectance, is_split(contents, settings), ["specular light is divided by it", "no light is divided by it"]),
+        (
+            Roughness,
+            is_split(contents, settings),
+            ["the width of reflections follows from it", "no reflection depends on it"],
+        ),
+        (
+            HitDistance,
+            is_split(contents, settings),
+            ["the place of reflections follows from it", "no reflection depends on it"],
+        ),
         (Unfiltered, settings.mode != Mode::Denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
     with_filter(&rows, settings.filter.gradient.traced(), [false, contents.views], settings, changes)
 }
 
+/// The features of the specular signal's steps in a path-traced frame, if something shines and the settings keep it apart.
+#[cfg(feature = "path-tracer")]
+pub(super) fn traced_gloss(contents: &SceneContents, settings: &Settings, changes: Changes) -> Option<Features> {
+    is_split(contents, settings).then(|| {
+        let gradient = match settings.filter.gradient {
+            // Blinn–Phong shading has one highlight for all light.
+            settings::Gradient::BlinnPhong => settings::Gradient::Statistics,
+            asked => asked,
+        };
+        of_specular(traced(contents, &with_gradient(settings, gradient), changes))
+    })
+}
+
+/// True if the path tracer splits its light by the lobe of the first surface.
+#[cfg(feature = "path-tracer")]
+fn is_split(contents: &SceneContents, settings: &Settings) -> bool {
+    contents.specular && settings.filter.gloss && settings.mode == Mode::Denoise
+}
+
 /// The decisions on a frame of the host's renderer.
 pub(super) fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes) -> Vec<Decision> {
     let denoise = settings.mode == Mode::Denoise;
-    let source = settings.filter.gradient.hosted(inputs.lambda, inputs.pairs);
-    let pairs = denoise && source == settings::Gradient::Pairs;
+    let source = settings.filter.gradient.hosted(inputs.lambda, inputs.pairs.is_some());
+    let pairs = inputs.pairs.filter(|_| denoise && source == settings::Gradient::Pairs).unwrap_or_default();
     let lambda = denoise && source == settings::Gradient::Lambda;
-    let modulated = !inputs.demodulated && (inputs.albedo || inputs.emission);
+    let modulated = !inputs.demodulated && (inputs.albedo || inputs.emission || inputs.specular && inputs.reflectance);
     let reshade = denoise && source == settings::Gradient::Reshade;
     let [copied_motion, copied_light] = why_copies(inputs, reshade);
     let rows = [
@@ -99,16 +134,66 @@ pub(super) fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes)
         (DirectEmission, inputs.emission, ["emission is given", "no emission is given"]),
         (Modulated, modulated, ["radiance comes with albedo and emission", "radiance is the light alone"]),
         (Background, denoise, ["misses are shown unfiltered", "everything is shown unfiltered"]),
-        (LuminancePairs, pairs && inputs.luminance_pairs, ["pairs are luminances", "no pair is a luminance"]),
-        (StratumPairs, pairs && inputs.stratum_pairs, ["there is one pair per stratum", "pairs stand in their pixels"]),
+        (LuminancePairs, pairs.luminance, ["pairs are luminances", "no pair is a luminance"]),
+        (StratumPairs, pairs.per_stratum, ["there is one pair per stratum", "pairs stand in their pixels"]),
         (Confidence, lambda && inputs.confidence, ["λ is given as 1 − λ", "no confidence is given"]),
         (MissingSamples, denoise, ["a renderer's pixel may not be a number", "no history is kept"]),
         (RepeatedNoise, denoise, ["a renderer's noise may be the same in every frame", "no history is kept"]),
         (Diagnostics, inputs.diagnostics, ["cleaned input is counted", "no counts are requested"]),
+        (
+            Gloss,
+            inputs.specular,
+            ["specular light comes apart: it is a signal of its own", "all light is one radiance"],
+        ),
+        (
+            MixedGloss,
+            !inputs.specular && (inputs.roughness || inputs.reflectance),
+            ["one radiance holds specular light: reflections shorten its history", "no radiance is known to be mixed"],
+        ),
+        (
+            SummedAlbedo,
+            !inputs.specular && inputs.albedo && inputs.reflectance,
+            [
+                "mixed light is divided by the sum of both reflectances",
+                "light is divided by one reflectance, if by any",
+            ],
+        ),
+        (Reflectance, inputs.reflectance, ["a specular reflectance is given", "no specular reflectance is given"]),
+        (Roughness, inputs.roughness, ["a roughness is given", "no roughness is given"]),
+        (
+            RoughnessInAlpha,
+            inputs.roughness_in_alpha,
+            ["the roughness is a fourth channel", "no roughness is a fourth channel"],
+        ),
+        (HitDistance, inputs.hit_distance, ["distances to reflected things are given", "no such distance is given"]),
+        (
+            ReflectionMotion,
+            inputs.reflection_motion,
+            ["the motion of reflections is given", "no motion of reflections is given"],
+        ),
         (Unfiltered, !denoise, UNFILTERED),
         (Accumulate, settings.mode == Mode::Reference, ACCUMULATE),
     ];
-    with_filter(&rows, source, [pairs && inputs.pairs_in_place, inputs.views], settings, changes)
+    with_filter(&rows, source, [pairs.in_place, inputs.views], settings, changes)
+}
+
+/// The features of the specular signal's steps in a host's frame, if it hands in specular light apart.
+pub(super) fn hosted_gloss(inputs: &HostInputs, settings: &Settings, changes: Changes) -> Option<Features> {
+    let inputs = inputs.specular.then(|| inputs.of_specular())?;
+    let asked = settings.filter.gradient;
+    let without_pairs = asked == settings::Gradient::Pairs && inputs.pairs.is_none();
+    let gradient = if without_pairs { settings::Gradient::Statistics } else { asked };
+    Some(of_specular(hosted(&inputs, &with_gradient(settings, gradient), changes)))
+}
+
+/// The features of the specular signal's steps that follow from decisions on it.
+fn of_specular(decisions: Vec<Decision>) -> Features {
+    let features: Features = decisions.iter().filter(|d| d.included).map(|d| d.feature).collect();
+    features.without(DirectEmission).with(SpecularSignal)
+}
+
+fn with_gradient(settings: &Settings, gradient: settings::Gradient) -> Settings {
+    Settings { filter: FilterSettings { gradient, ..settings.filter.clone() }, ..settings.clone() }
 }
 
 /// The reasons for copying a host's motion and its light, if they are copied.
@@ -119,7 +204,12 @@ fn why_copies(inputs: &HostInputs, reshade: bool) -> [Option<&'static str>; 2] {
         (inputs.views, "a copy is kept for views"),
     ];
     let why = reasons.into_iter().find(|(holds, _)| *holds).map(|(_, why)| why);
-    [why, why.or(inputs.in_target.then_some("a copy is kept: a shader cannot read what it writes"))]
+    let mixed = !inputs.specular && (inputs.roughness || inputs.reflectance);
+    let of_light = [
+        (inputs.in_target, "a copy is kept: a shader cannot read what it writes"),
+        (mixed, "a copy is kept: with the gloss beside it, a shader would bind more than sixteen textures"),
+    ];
+    [why, why.or(of_light.into_iter().find(|(holds, _)| *holds).map(|(_, why)| why))]
 }
 
 /// The rows, with those of the filter if the mode filters. `given` tells if pairs stand in place, and if views are kept.
@@ -229,6 +319,11 @@ fn filter(
             Steady,
             spatial && filter.steadiness > 0.0,
             ["the last output steadies this one", "no steadiness is set, or nothing is filtered in space"],
+        ),
+        (
+            Clamp,
+            spatial && filter.gloss_clamp > 0.0,
+            ["lone spots of specular light are clamped before the spatial filter", "no clamp is set"],
         ),
         (
             Outliers,

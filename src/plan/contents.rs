@@ -77,16 +77,10 @@ pub struct HostInputs {
     pub emission: bool,
     /// The radiance was divided by the albedo and has no emission.
     pub demodulated: bool,
-    /// There are pairs for the gradient.
-    pub pairs: bool,
+    /// The pairs for the gradient.
+    pub pairs: Option<PairInputs>,
     /// There is λ.
     pub lambda: bool,
-    /// The gradient's pairs are luminances.
-    pub luminance_pairs: bool,
-    /// There is one pair per stratum, instead of an image with no pair in most pixels.
-    pub stratum_pairs: bool,
-    /// The pairs' paths stand in the radiance in place of their pixels' own paths.
-    pub pairs_in_place: bool,
     /// The λ image is a confidence, 1 − λ.
     pub confidence: bool,
     /// Input that has to be cleaned is counted.
@@ -95,4 +89,36 @@ pub struct HostInputs {
     pub views: bool,
     /// A view of the light shares the target's texture.
     pub in_target: bool,
+    /// Specular light comes apart from diffuse light.
+    pub specular: bool,
+    /// The reflectance of the specular lobe is given.
+    pub reflectance: bool,
+    /// The roughness is given.
+    pub roughness: bool,
+    /// The roughness is the fourth channel of its view.
+    pub roughness_in_alpha: bool,
+    /// The distance from each surface to what it reflects is given.
+    pub hit_distance: bool,
+    /// The motion of reflections is given.
+    pub reflection_motion: bool,
+    /// The pairs of the specular light.
+    pub specular_pairs: Option<PairInputs>,
+}
+
+/// The contents of a host's pairs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PairInputs {
+    /// The pairs are luminances.
+    pub luminance: bool,
+    /// There is one pair per stratum, instead of an image with no pair in most pixels.
+    pub per_stratum: bool,
+    /// The pairs' paths stand in the radiance in place of their pixels' own paths.
+    pub in_place: bool,
+}
+
+impl HostInputs {
+    /// The views of the specular signal, under the names of the diffuse one's.
+    pub(crate) fn of_specular(&self) -> Self {
+        Self { albedo: self.reflectance, emission: false, pairs: self.specular_pairs, ..*self }
+    }
 }

@@ -76,7 +76,7 @@ impl Plan {
 /// The name of an image: `last` is the previous frame's.
 fn slot_name(slot: Slot) -> String {
     match slot {
-        Slot::Now(image) => image.name().into(),
+        Slot::Now(image) => image.name(),
         Slot::Before(image) => format!("last {}", image.name()),
         Slot::Target => "target".into(),
         Slot::Host(view) => format!("host's {}", view.name()),

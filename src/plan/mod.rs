@@ -15,16 +15,16 @@ mod display;
 mod memory;
 mod show;
 
-pub use crate::passes::{Bound, Feature, Features, Grid, HostView, Image, Slot, Step, Traversal};
+pub use crate::passes::{Bound, Feature, Features, Grid, HostView, Image, Slot, Step, Traversal, Twin};
 #[cfg(feature = "path-tracer")]
 pub(crate) use batches::Batches;
 pub use changes::Changes;
-pub use contents::{HostInputs, SceneContents};
+pub use contents::{HostInputs, PairInputs, SceneContents};
 pub use decision::Decision;
 pub(crate) use memory::{Kind, Memory, needed};
 
 use crate::passes::*;
-use crate::settings::{Mode, Settings};
+use crate::settings::{FilterSettings, Mode, Settings};
 use std::collections::BTreeSet;
 use wgpu::TextureFormat;
 
@@ -36,6 +36,8 @@ pub struct Plan {
     pub steps: Vec<Step>,
     /// The features that are in.
     pub features: Features,
+    /// The features of the specular signal's steps, if it is a signal of its own.
+    pub specular: Option<Features>,
     /// The decisions, each with its reason.
     pub decisions: Vec<Decision>,
     /// The image that ends with the filtered colour, if the mode filters.
@@ -49,11 +51,15 @@ impl Plan {
     #[cfg(feature = "path-tracer")]
     pub fn path_traced(contents: &SceneContents, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
         let mut plan = Self::of(choice::traced(contents, settings, changes), target);
+        plan.specular = choice::traced_gloss(contents, settings, changes);
         plan.run(&visibility::PASS);
         if plan.has(Feature::Gradient) && !plan.has(Feature::Statistics) {
             plan.run(&gradient_sample::PASS);
         }
         plan.trace(Batches::of(contents, &settings.tracer).count());
+        if plan.has(Feature::Gloss) {
+            plan.run(&gloss_surface::PASS);
+        }
         plan.filter(settings);
         plan.run_on(&resolve::PASS, plan.color);
         plan
@@ -62,16 +68,23 @@ impl Plan {
     /// Plans the passes that a frame of the host's own renderer needs.
     pub fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes, target: TextureFormat) -> Self {
         let mut plan = Self::of(choice::hosted(inputs, settings, changes), target);
+        plan.specular = choice::hosted_gloss(inputs, settings, changes);
         plan.run(&ingest_surface::PASS);
         if plan.has(Feature::Reshade) {
             plan.run(&gradient_sample::PASS);
             plan.run(&reshade::PASS);
         }
-        if !plan.has(Feature::HostLight) {
-            plan.run(&ingest_radiance::PASS);
+        for signal in plan.signals() {
+            if !signal.has(Feature::HostLight) {
+                plan.run_of(signal, &ingest_radiance::PASS);
+            }
+            if signal.has(Feature::Pairs) {
+                plan.run_of(signal, &ingest_pairs::PASS);
+            }
         }
-        if plan.has(Feature::Pairs) {
-            plan.run(&ingest_pairs::PASS);
+        let shines = plan.has(Feature::Gloss) || plan.has(Feature::MixedGloss);
+        if shines && !plan.has(Feature::Unfiltered) {
+            plan.run(&ingest_gloss::PASS);
         }
         plan.filter(settings);
         plan.run_on(&resolve::PASS, plan.color);
@@ -83,16 +96,26 @@ impl Plan {
         let narrow = target == TextureFormat::Rgba16Float;
         decisions.push(Decision::new(Feature::TargetF16, narrow, ["the target is 16-bit", "the target is 32-bit"]));
         let features = decisions.iter().filter(|d| d.included).map(|d| d.feature).collect();
-        Self { steps: Vec::new(), features, decisions, color: None, gradient: None }
+        Self { steps: Vec::new(), features, specular: None, decisions, color: None, gradient: None }
     }
 
     fn has(&self, feature: Feature) -> bool {
         self.features.has(feature)
     }
 
+    /// The features of each signal's steps: diffuse first, or that of all light.
+    fn signals(&self) -> impl Iterator<Item = Features> + use<> {
+        [Some(self.features), self.specular].into_iter().flatten()
+    }
+
     /// Appends the only step of a pass.
     fn run(&mut self, pass: &'static Pass) {
-        self.steps.push(Step::new(pass, self.features));
+        self.run_of(self.features, pass);
+    }
+
+    /// Appends the only step of a pass for a signal.
+    fn run_of(&mut self, signal: Features, pass: &'static Pass) {
+        self.steps.push(Step::new(pass, signal));
     }
 
     /// Appends a pass that reads a result that one of several images holds.
@@ -100,10 +123,9 @@ impl Plan {
         self.steps.push(Step::nth(pass, self.features, Nth::of(image)));
     }
 
-    /// Appends a number of iterations of a pass.
-    fn iterate(&mut self, pass: &'static Pass, iterations: u32) {
-        let features = self.features;
-        self.steps.extend((0..iterations).map(|i| Step::nth(pass, features, Nth::iteration(i))));
+    /// Appends a number of iterations of a pass for a signal.
+    fn iterate(&mut self, signal: Features, pass: &'static Pass, iterations: u32) {
+        self.steps.extend((0..iterations).map(|i| Step::nth(pass, signal, Nth::iteration(i))));
     }
 
     /// True if the mean continues over all frames so far, however many: nothing changed, and α is adaptive.
@@ -135,60 +157,71 @@ impl Plan {
         if settings.mode != Mode::Denoise {
             return;
         }
-        if self.has(Feature::Outliers) {
-            self.run(&outlier_candidates::PASS);
-            self.run(&outlier_counts::PASS);
-            self.run(&outlier_limit::PASS);
-        }
-        if self.has(Feature::Gradient) {
-            self.measure_gradient(settings);
-        }
-        self.run_on(&temporal::PASS, self.gradient);
-        if self.has(Feature::TemporalOnly) {
-            self.color = Some(Image::History);
-        } else {
-            self.filter_in_space(settings);
+        for signal in self.signals() {
+            if signal.has(Feature::SpecularSignal) {
+                self.run(&reflection::PASS);
+            }
+            self.filter_signal(signal, &settings.filter);
         }
     }
 
-    /// Appends the passes that find λ and the history ratio.
-    fn measure_gradient(&mut self, settings: &Settings) {
-        let filter = &settings.filter;
-        if self.has(Feature::Statistics) {
-            self.run(&gradient_means::PASS);
-            self.iterate(&gradient_means_filter::PASS, gradient_of_means::COARSEST.into());
-            self.run(&gradient_of_means::PASS);
-            self.gradient = Some(Image::Gradient(0));
-            return;
+    fn filter_signal(&mut self, signal: Features, filter: &FilterSettings) {
+        if signal.has(Feature::Outliers) {
+            self.run_of(signal, &outlier_candidates::PASS);
+            self.run_of(signal, &outlier_counts::PASS);
+            self.run_of(signal, &outlier_limit::PASS);
         }
-        if self.has(Feature::HistoryRatio) {
-            self.run(&gradient_pairs::PASS);
-            self.iterate(&gradient_pairs_filter::PASS, filter.ratio_iterations);
+        if signal.has(Feature::SpecularSignal) && !signal.has(Feature::Still) {
+            self.run_of(signal, &agreement::PASS);
         }
-        self.steps.push(Step::nth(&gradient::PASS, self.features, Nth::after(filter.ratio_iterations)));
-        self.iterate(&gradient_filter::PASS, filter.gradient_iterations);
-        self.gradient = Some(Image::Gradient((filter.gradient_iterations % 2) as u8));
+        let gradient = signal.has(Feature::Gradient).then(|| self.measure_gradient(signal, filter));
+        self.steps.push(Step::nth(&temporal::PASS, signal, Nth::of(gradient)));
+        let color =
+            if signal.has(Feature::TemporalOnly) { Image::History } else { self.filter_in_space(signal, filter) };
+        // Both signals end in images of the same name.
+        self.color = Some(color);
+        if !signal.has(Feature::SpecularSignal) {
+            self.gradient = gradient;
+        }
     }
 
-    /// Appends the variance, the à-trous iterations, and the blend with the last output.
-    fn filter_in_space(&mut self, settings: &Settings) {
-        self.run(&variance::PASS);
-        let mut iterations = settings.filter.iterations;
-        let wide = self.features.without(Feature::SmallKernel);
+    /// Appends the passes that find λ and the history ratio, and returns the image that ends with λ.
+    fn measure_gradient(&mut self, signal: Features, filter: &FilterSettings) -> Image {
+        if signal.has(Feature::Statistics) {
+            self.run_of(signal, &gradient_means::PASS);
+            self.iterate(signal, &gradient_means_filter::PASS, gradient_of_means::COARSEST.into());
+            self.run_of(signal, &gradient_of_means::PASS);
+            return Image::Gradient(0);
+        }
+        if signal.has(Feature::HistoryRatio) {
+            self.run_of(signal, &gradient_pairs::PASS);
+            self.iterate(signal, &gradient_pairs_filter::PASS, filter.ratio_iterations);
+        }
+        self.steps.push(Step::nth(&gradient::PASS, signal, Nth::after(filter.ratio_iterations)));
+        self.iterate(signal, &gradient_filter::PASS, filter.gradient_iterations);
+        Image::Gradient((filter.gradient_iterations % 2) as u8)
+    }
+
+    /// Appends the variance, the à-trous iterations, and the blend with the last output, and returns the image that ends with the
+    /// colour.
+    fn filter_in_space(&mut self, signal: Features, filter: &FilterSettings) -> Image {
+        self.run_of(signal, &variance::PASS);
+        let mut iterations = filter.iterations;
+        let wide = signal.without(Feature::SmallKernel);
         self.steps.extend((0..iterations).map(|i| {
             let features = if i == 0 { wide.with(Feature::FirstIteration) } else { wide };
             Step::nth(&atrous::PASS, features, Nth::iteration(i))
         }));
-        if self.has(Feature::SmallKernel) {
-            self.steps.push(Step::nth(&atrous::PASS, self.features, Nth::after(iterations)));
+        if signal.has(Feature::SmallKernel) {
+            self.steps.push(Step::nth(&atrous::PASS, signal, Nth::after(iterations)));
             iterations += 1;
         }
         let color = Image::Color((iterations % 2) as u8);
-        self.color = Some(color);
-        if self.has(Feature::Steady) {
-            self.run_on(&steady::PASS, self.color);
-            self.color = Some(Image::Output);
+        if !signal.has(Feature::Steady) {
+            return color;
         }
+        self.steps.push(Step::nth(&steady::PASS, signal, Nth::of(Some(color))));
+        Image::Output
     }
 
     /// This plan for an adapter that is the CPU, see [`Feature::StorageReads`].

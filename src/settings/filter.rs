@@ -30,6 +30,14 @@ settings! {
         /// change. Lower: more lag, less noise. 0 never shortens a history.
         history_power: f32 { default: 3.5, classic: 10.0, range: 0..=64, useful: 0..=16 }
 
+        /// Filters the path tracer's specular light as a signal of its own, whose history follows reflections instead of surfaces.
+        /// On: reflections do not smear. Off: less time and less memory where something shines. A change starts a new history. Has no
+        /// effect on a host's frame, because the host decides what it hands in, see [`Gloss`](crate::Gloss).
+        gloss: bool { default: true, classic: false, compiles: Always }
+
+        /// The same exponent k for specular light. Higher: less lag, more noise after a change. Lower: more lag, less noise.
+        gloss_history_power: f32 { default: 10.0, classic: 10.0, range: 0..=64, useful: 0..=16 }
+
         /// Rescales the history before blending, by the ratio that the gradient samples show, and drops only the change that this
         /// ratio leaves unexplained. On: less lag and less noise where light moves or dims. Has no effect with
         /// [`Gradient::BlinnPhong`], because analytic shading is blind to shadows, nor with [`Gradient::Lambda`] and
@@ -123,6 +131,20 @@ settings! {
         /// Luminance stop in standard deviations of the noise. Higher: smoother, but edges of shadows blur. Lower: edges of shadows stay
         /// sharp, and noise stays too. 0 mixes only pixels of equal luminance.
         sigma_luminance: f32 { default: 4.0, range: 0..=1e6, useful: 0..=32 }
+
+        /// The same stop for specular light, which has sharper borders. Higher: smoother, but what is reflected blurs. Lower: sharper,
+        /// but noisier.
+        gloss_sigma_luminance: f32 { default: 2.5, classic: 4.0, range: 0..=1e6, useful: 0..=32 }
+
+        /// Greatest luminance of accumulated specular light that the spatial filter takes in, as a multiple of the third largest of the
+        /// 24 pixels around. Its history keeps what is above. Higher: less of a lone highlight's light is lost, but spots stay where
+        /// noise is strong. Lower: smoother, but darker. 0 takes in everything, which saves 24 taps. Changing it from or to 0 compiles.
+        gloss_clamp: f32 { default: 3.0, classic: 0.0, range: 0..=1e6, useful: 0..=16, compiles: Sometimes }
+
+        /// Speed with which reflections that slide over a surface shorten the history, where one radiance holds diffuse and specular
+        /// light: 1/n grows by this times the specular part, the square of the smoothness, and the pixels that reflections move.
+        /// Higher: sharper reflections, but noisier. Lower: smoother, but reflections smear. 0 leaves the history as long as elsewhere.
+        gloss_parallax: f32 { default: 1.0, classic: 0.0, range: 0..=1e3, useful: 0..=4 }
 
         /// Depth stop. With the default stops: tolerated distance from the tangent plane, as a fraction of the depth. With the classic
         /// stops: in depth gradients. Higher: light leaks across edges. Lower: noise stays on curved surfaces.

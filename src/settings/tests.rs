@@ -1,7 +1,7 @@
 //! The promises of the settings' documentation.
 
 use super::*;
-use crate::plan::{Changes, Features, HostInputs, Plan};
+use crate::plan::{Changes, Features, HostInputs, PairInputs, Plan};
 use std::collections::BTreeSet;
 use wgpu::TextureFormat;
 
@@ -102,8 +102,9 @@ fn varied(base: &Settings, setting: &Setting) -> Vec<Settings> {
 fn shaders(settings: &Settings) -> Vec<BTreeSet<(&'static str, Features)>> {
     let target = TextureFormat::Rgba16Float;
     let inputs = [[false, false], [true, false], [false, true]].map(|[pairs, lambda]| HostInputs {
-        pairs,
+        pairs: pairs.then(PairInputs::default),
         lambda,
+        specular: pairs,
         ..Default::default()
     });
     #[allow(unused_mut, reason = "without the path tracer these are all")]
@@ -111,7 +112,7 @@ fn shaders(settings: &Settings) -> Vec<BTreeSet<(&'static str, Features)>> {
         inputs.iter().map(|inputs| Plan::hosted(inputs, settings, Changes::ANY, target)).collect();
     #[cfg(feature = "path-tracer")]
     {
-        let contents = crate::plan::SceneContents { emitters: true, levels: 20, ..Default::default() };
+        let contents = crate::plan::SceneContents { emitters: true, specular: true, levels: 20, ..Default::default() };
         plans.push(Plan::path_traced(&contents, settings, Changes::ANY, target));
     }
     plans.iter().map(|plan| plan.steps.iter().map(|step| (step.pass.name(), step.features)).collect()).collect()

@@ -78,6 +78,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "instance_numbers",
         "instance_record",
         "object_to_world",
+        "pack_displacement",
         "placements_previous",
         "previous_object_to_world",
         "transform_normal",
@@ -99,6 +100,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "is_blended",
         "passes_through",
         "start_of_path",
+        "whole_demodulation",
     ];
     let mut opacity = [&blending[..], &["is_hole", "meets_back", "opacity_at"]].concat();
     opacity.sort_unstable();
@@ -115,7 +117,19 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         (SceneContents { textures: false, ..ALL }, images),
         (SceneContents { shading_normals: false, ..ALL }, &["octahedral", "transform_normal", "unpack_octahedral"]),
         (SceneContents { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
-        (SceneContents { specular: false, ..ALL }, &["distribution", "fresnel", "smith", "specular_share"]),
+        (
+            SceneContents { specular: false, ..ALL },
+            &[
+                "distribution",
+                "fresnel",
+                "of_lobe",
+                "pack_displacement",
+                "smith",
+                "specular_demodulation",
+                "specular_radiance_out",
+                "specular_share",
+            ],
+        ),
         (SceneContents { alpha_mask: false, alpha_blend: false, ..ALL }, &opacity),
         (SceneContents { alpha_blend: false, ..ALL }, &blending),
         (SceneContents { emitters: false, ..ALL }, &["emitter_density"]),
@@ -151,8 +165,8 @@ fn what_the_settings_and_the_frame_do_not_ask_for_is_not_in_the_shaders() {
     assert_eq!(passes(&quiet), passes(&constant));
     assert_eq!(
         adaptive.steps.len() - quiet.steps.len(),
-        8,
-        "sample, pairs, 3 × their filter, gradient, 2 × its filter"
+        15,
+        "sample, pairs, 3 × their filter, gradient, 2 × its filter, and all but the first again for specular light"
     );
     let bare = FilterSettings { iterations: 0, gradient: Gradient::Off, outlier_limit: 0.0, ..Default::default() };
     let bare = plan(&SceneContents::default(), bare, Changes::ANY);
@@ -173,7 +187,7 @@ fn every_decision_has_a_reason_and_is_carried_out() {
             assert_eq!(plan.features.has(decision.feature), decision.included, "{decision:?}");
         }
         let compiled: Features = plan.steps.iter().flat_map(|step| step.features.iter()).collect();
-        let own = Features::of(&[Feature::FirstIteration]);
+        let own = Features::of(&[Feature::FirstIteration, Feature::SpecularSignal]);
         let undecided = compiled.iter().filter(|f| !own.has(*f) && !decided.contains(f)).collect::<Vec<_>>();
         assert!(undecided.is_empty(), "{undecided:?} are in for no reason");
     }

@@ -4,7 +4,7 @@
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::resource::Resource;
-use crate::plan::{Changes, Feature, Features, HostInputs, Plan, SceneContents, Step, Traversal};
+use crate::plan::{Changes, Feature, Features, HostInputs, PairInputs, Plan, SceneContents, Step, Traversal};
 use crate::scene::{Environment, GpuScene, Scene, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
@@ -84,15 +84,13 @@ fn host_inputs() -> Vec<HostInputs> {
                 albedo: bit(3),
                 emission: bit(4),
                 demodulated: bit(5),
-                pairs: false,
+                pairs: Some(PairInputs { luminance: bit(6), per_stratum: bit(7), in_place: bit(8) && !bit(7) }),
                 lambda: false,
-                luminance_pairs: bit(6),
-                stratum_pairs: bit(7),
-                pairs_in_place: bit(8) && !bit(7),
                 confidence: bit(9),
                 diagnostics: bit(10),
                 views: false,
                 in_target: false,
+                ..Default::default()
             })
         })
         .collect()
@@ -118,6 +116,8 @@ fn filters(gradients: &[Gradient]) -> Vec<FilterSettings> {
             outlier_limit: if on(9) { 40.0 } else { 0.0 },
             iterations: if on(8) { 5 } else { 0 },
             gradient_iterations: if on(9) { 3 } else { 0 },
+            gloss_clamp: if on(6) { 3.0 } else { 0.0 },
+            gloss: on(7),
             ..Default::default()
         }
     };
@@ -154,7 +154,7 @@ fn plans() -> Vec<Plan> {
     }
     for ((instanced, views), filter) in product(&product(&[false, true], &[false, true]), &filters(&GRADIENTS)) {
         let settings = Settings { filter, ..Settings::adaptive() };
-        let contents = SceneContents { instanced, views, ..Default::default() };
+        let contents = SceneContents { instanced, views, specular: instanced, ..Default::default() };
         for changes in CHANGES {
             let plan = Plan::path_traced(&contents, &settings, changes, TextureFormat::Rgba32Float);
             plans.push(plan.clone().on_cpu());
@@ -172,6 +172,35 @@ fn host_plans() -> Vec<Plan> {
         let settings = Settings { filter: FilterSettings { gradient, ..Default::default() }, ..Settings::adaptive() };
         for changes in CHANGES {
             plans.push(Plan::hosted(&inputs, &settings, changes, TextureFormat::Rgba32Float));
+        }
+    }
+    // Gloss: any subset of what is known of it, with light apart or not, albedo or not.
+    for (bits, gradient) in product(&(0_u32..1 << 10).collect::<Vec<_>>(), &HOST_GRADIENTS) {
+        let bit = |i: u32| bits >> i & 1 == 1;
+        let inputs = HostInputs {
+            specular: bit(0),
+            reflectance: bit(1),
+            roughness: bit(2),
+            roughness_in_alpha: bit(2) && bit(3),
+            hit_distance: bit(0) && bit(4),
+            reflection_motion: bit(0) && bit(5),
+            albedo: bit(6),
+            demodulated: bit(7),
+            views: bit(8),
+            previous_depth: bit(9),
+            instances: bit(9),
+            emission: bit(9),
+            specular_pairs: bit(5).then(PairInputs::default),
+            pairs: bit(4).then(PairInputs::default),
+            ..Default::default()
+        };
+        let filter = FilterSettings { gradient, ..Default::default() };
+        for (mode, changes) in
+            [(Mode::Denoise, Changes::ANY), (Mode::Denoise, Changes::NONE), (Mode::Noisy, Changes::ANY)]
+        {
+            let settings = Settings { mode, filter: filter.clone(), ..Settings::adaptive() };
+            let plan = Plan::hosted(&inputs, &settings, changes, TextureFormat::Rgba16Float);
+            plans.push(if bit(8) { plan.on_cpu() } else { plan });
         }
     }
     // Combine the host's own images with copies of some or all.
@@ -193,7 +222,16 @@ fn host_plans() -> Vec<Plan> {
         }
     }
     for (instances, (marked, filter)) in product(&[false, true], &product(&[false, true], &filters(&HOST_GRADIENTS))) {
-        let inputs = HostInputs { instances, pairs_in_place: marked, confidence: marked, ..Default::default() };
+        let pairs = Some(PairInputs { in_place: marked, ..Default::default() });
+        let inputs = HostInputs { instances, pairs, confidence: marked, ..Default::default() };
+        // With specular light apart, and with all light in one radiance of which something is known.
+        for specular in [true, false] {
+            let gloss = HostInputs { specular, specular_pairs: pairs, reflectance: true, roughness: true, ..inputs };
+            let settings = Settings { filter: filter.clone(), ..Settings::adaptive() };
+            for changes in CHANGES {
+                plans.push(Plan::hosted(&gloss, &settings, changes, TextureFormat::Rgba32Float));
+            }
+        }
         let settings = Settings { filter, ..Settings::adaptive() };
         plans.push(Plan::hosted(&inputs, &settings, Changes::ANY, TextureFormat::Rgba32Float));
     }
@@ -288,7 +326,7 @@ fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
         *counts.entry(permutation.pass.name()).or_default() += 1;
     }
     println!("{counts:?}");
-    assert_eq!(counts.len(), 23, "a pass is never run: {counts:?}");
+    assert_eq!(counts.len(), 27, "a pass is never run: {counts:?}");
     let reached: Features = steps.keys().flat_map(|permutation| permutation.features.iter()).collect();
     // Statistics decide which passes run, and nothing within them.
     let reached = reached.with(Feature::Statistics);

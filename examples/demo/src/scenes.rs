@@ -42,9 +42,10 @@ impl Stage {
     fn built_in(name: &str) -> Option<Self> {
         let mut scene = builtin::scene(name, "all")?;
         // The animations are kept separate, so that any combination can play. Blinking lamps need no animation.
-        let single = builtin::ANIMATIONS.into_iter().filter(|n| !["static", "blink", "all"].contains(n));
+        let single = builtin::animations(name).iter().copied().filter(|n| !["static", "blink", "all"].contains(n));
         scene.animations = single.filter_map(|n| builtin::scene(name, n)).flat_map(|s| s.animations).collect();
-        let object = scene.nodes.iter().position(|node| ["tall block", "block"].contains(&node.name.as_str()));
+        let object =
+            scene.nodes.iter().position(|node| ["tall block", "block", "gold ball"].contains(&node.name.as_str()));
         Some(Self::new(scene, object, Vec::new()))
     }
 

@@ -6,6 +6,7 @@ pub mod clean_albedo;
 mod fixed_seed;
 mod grid;
 mod inverted_motion;
+mod lobes;
 pub mod look_ahead;
 pub mod options;
 pub mod output;

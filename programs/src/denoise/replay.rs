@@ -4,6 +4,7 @@ use crate::denoise::blend_in_time::Estimate;
 use crate::denoise::clean_albedo::CleanAlbedo;
 use crate::denoise::fixed_seed::{FixedSeed, repeats_noise};
 use crate::denoise::inverted_motion::inverted;
+use crate::denoise::lobes;
 use crate::denoise::upload::Views;
 use crate::film::Film;
 use crate::sequence::camera::{Camera, Raster};
@@ -11,7 +12,7 @@ use crate::sequence::layers::Layer;
 use crate::sequence::motion::{self, Matches};
 use crate::sequence::{Pixels, Sequence};
 use crate::times::PassTimes;
-use asvgf::{Error, FilterSettings, Gradient, Lambda, Pairs, Settings, Shading, Surfaces, View};
+use asvgf::{Error, FilterSettings, Gloss, Gradient, Lambda, Pairs, Settings, Shading, Surfaces, View};
 
 /// A frame to play, and its link to the one before.
 pub struct Played<'a> {
@@ -92,6 +93,7 @@ impl<'a, 'g> Player<'a, 'g> {
             self.film.denoiser.reset();
         }
         let mut shown = pixels.clone();
+        lobes::split(&mut shown);
         let known = last.as_ref().filter(|_| !begins).map(|(_, last)| last);
         let noise = self.albedo.clean(&mut shown, known, &motion, cameras[0], raster)?;
         let views = Views::new(self.film.gpu, sequence, &shown, &motion, self.backwards);
@@ -184,7 +186,19 @@ fn expose(
         let pairs = views.get(Layer::GradientCurrent).zip(views.get(Layer::GradientPrevious));
         let pairs = pairs.map(|(current, previous)| Pairs { current, previous, in_place });
         let lambda = views.get(Layer::Lambda).map(|view| Lambda { view, block: 1, confidence: false });
+        let specular = [Layer::SpecularGradientCurrent, Layer::SpecularGradientPrevious].map(|layer| views.get(layer));
+        let specular_pairs =
+            specular[0].zip(specular[1]).map(|(current, previous)| Pairs { current, previous, in_place });
+        let gloss = Gloss {
+            radiance: views.get(Layer::Specular),
+            reflectance: views.get(Layer::SpecularAlbedo),
+            roughness: views.get(Layer::Roughness),
+            hit_distance: views.get(Layer::HitDistance),
+            motion: views.get(Layer::SpecularMotion),
+            pairs: specular_pairs.filter(|_| gradient == Gradient::Pairs),
+        };
         let shading = Shading {
+            gloss: Some(gloss),
             albedo: views.get(Layer::Albedo),
             emission: views.get(Layer::Emission),
             pairs: pairs.filter(|_| gradient == Gradient::Pairs),

@@ -19,7 +19,14 @@ impl Views {
         let forwards = |layer: Layer| {
             !matches!(
                 layer,
-                Layer::PreviousDepth | Layer::GradientCurrent | Layer::GradientPrevious | Layer::Lambda | Layer::Motion
+                Layer::PreviousDepth
+                    | Layer::GradientCurrent
+                    | Layer::GradientPrevious
+                    | Layer::SpecularGradientCurrent
+                    | Layer::SpecularGradientPrevious
+                    | Layer::Lambda
+                    | Layer::Motion
+                    | Layer::SpecularMotion
             ) || (layer == Layer::PreviousDepth && !sequence.has_surfaces())
         };
         let wanted = |layer: Layer| !backwards || forwards(layer);

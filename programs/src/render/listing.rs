@@ -9,9 +9,8 @@ pub fn list(options: &Options, loaded: &Loaded) -> String {
     let scene = &loaded.scene;
     let mut out = String::from("Built-in scenes\n");
     for name in builtin::NAMES {
-        let _ = writeln!(out, "  {name}");
+        let _ = writeln!(out, "  {name:<8} with the animations {}", builtin::animations(name).join(", "));
     }
-    let _ = writeln!(out, "with the animations\n  {}", builtin::ANIMATIONS.join(", "));
     let name = match &options.source {
         Source::BuiltIn(name) => name.clone(),
         Source::File(path) => path.display().to_string(),

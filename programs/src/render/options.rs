@@ -390,11 +390,11 @@ fn check(options: &Options) -> Result<(), Usage> {
     if viewpoint.up == Some([0.0; 3]) {
         return Err(Usage("--up 0,0,0: has no direction".into()));
     }
-    if let (Source::BuiltIn(_), Some(name)) = (&options.source, &options.animation)
-        && !builtin::ANIMATIONS.contains(&name.as_str())
+    if let (Source::BuiltIn(scene), Some(name)) = (&options.source, &options.animation)
+        && !builtin::animations(scene).contains(&name.as_str())
     {
-        let known = builtin::ANIMATIONS.join(", ");
-        return Err(Usage(format!("--animation {name}: the built-in scenes have {known}")));
+        let known = builtin::animations(scene).join(", ");
+        return Err(Usage(format!("--animation {name}: {scene} has {known}")));
     }
     match options.outputs.iter().find(|&&view| !exists(view, &options.settings)) {
         Some(view) => Err(Usage(format!("--outputs {}: there is none with a constant alpha", view.name()))),

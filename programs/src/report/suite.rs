@@ -3,7 +3,7 @@
 use crate::program::repository;
 use crate::render::options::Source;
 use crate::report::methods::{self, Method};
-use asvgf::scene::builtin::ANIMATIONS;
+use asvgf::scene::builtin::{ANIMATIONS, GLOSS_ANIMATIONS};
 use std::path::Path;
 
 /// Frame of the turn of the built-in scenes' lamps and paths: blinking lamps go out, moving ones go back.
@@ -13,8 +13,12 @@ pub const TURN: u32 = 30;
 const TEXTURED: &str = "assets/textured/room.glb";
 
 /// Scenes and their animations, the most informative first.
-const SCENES: [(&str, &[&str]); 3] =
-    [("cornell", &ANIMATIONS), ("pillars", &ANIMATIONS), ("textured", &["static", "move-camera"])];
+const SCENES: [(&str, &[&str]); 4] = [
+    ("cornell", &ANIMATIONS),
+    ("pillars", &ANIMATIONS),
+    ("gloss", &GLOSS_ANIMATIONS),
+    ("textured", &["static", "move-camera"]),
+];
 
 /// Number of a scene's animations in the quick suite.
 const QUICK: usize = 3;

@@ -64,7 +64,7 @@ fn source(layer: Layer) -> Option<(View, Components)> {
         Layer::Id => (View::Object, |[low, high, _]| [low + 65536.0 * high; 3]),
         Layer::GradientCurrent => (View::PairNow, same),
         Layer::GradientPrevious => (View::PairBefore, same),
-        Layer::Lambda => return None,
+        _ => return None,
     })
 }
 

@@ -17,6 +17,19 @@ pub enum Layer {
     GradientCurrent,
     GradientPrevious,
     Lambda,
+    Diffuse,
+    Specular,
+    SpecularAlbedo,
+    Roughness,
+    HitDistance,
+    SpecularMotion,
+    SpecularGradientCurrent,
+    SpecularGradientPrevious,
+    /// Blender's passes of light by lobes: each light is divided by the colour.
+    GlossyDirect,
+    GlossyIndirect,
+    DiffuseColor,
+    TransmissionColor,
 }
 
 /// Differences of numbers from those of the format.
@@ -39,7 +52,7 @@ const XYZ: &[&str] = &["X", "Y", "Z"];
 const XY: &[&str] = &["X", "Y"];
 
 impl Layer {
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 23] = [
         Self::Color,
         Self::Albedo,
         Self::Emission,
@@ -51,6 +64,18 @@ impl Layer {
         Self::GradientCurrent,
         Self::GradientPrevious,
         Self::Lambda,
+        Self::Diffuse,
+        Self::Specular,
+        Self::SpecularAlbedo,
+        Self::Roughness,
+        Self::HitDistance,
+        Self::SpecularMotion,
+        Self::SpecularGradientCurrent,
+        Self::SpecularGradientPrevious,
+        Self::GlossyDirect,
+        Self::GlossyIndirect,
+        Self::DiffuseColor,
+        Self::TransmissionColor,
     ];
 
     /// Returns the name, which precedes the dot in the names of all channels except the colour's.
@@ -67,24 +92,43 @@ impl Layer {
             Self::GradientCurrent => "gradient.current",
             Self::GradientPrevious => "gradient.previous",
             Self::Lambda => "lambda",
+            Self::Diffuse => "diffuse",
+            Self::Specular => "specular",
+            Self::SpecularAlbedo => "specular_albedo",
+            Self::Roughness => "roughness",
+            Self::HitDistance => "hit_distance",
+            Self::SpecularMotion => "specular_motion",
+            Self::SpecularGradientCurrent => "specular_gradient.current",
+            Self::SpecularGradientPrevious => "specular_gradient.previous",
+            Self::GlossyDirect => "glossy_direct",
+            Self::GlossyIndirect => "glossy_indirect",
+            Self::DiffuseColor => "diffuse_color",
+            Self::TransmissionColor => "transmission_color",
         }
     }
 
     /// Returns the last parts of the channels' names.
     pub fn components(self) -> &'static [&'static str] {
         match self {
-            Self::Color | Self::Albedo | Self::Emission | Self::GradientCurrent | Self::GradientPrevious => RGB,
             Self::Normal => XYZ,
-            Self::Motion => XY,
-            Self::Depth | Self::PreviousDepth => &["Z"],
+            Self::Motion | Self::SpecularMotion => XY,
+            Self::Depth | Self::PreviousDepth | Self::HitDistance => &["Z"],
+            Self::Roughness => &["V"],
             Self::Id => &["I"],
             Self::Lambda => &["Y"],
+            _ => RGB,
         }
     }
 
     /// True if it holds repeated paths, of which a frame may have none.
     pub fn is_of_pairs(self) -> bool {
-        matches!(self, Self::GradientCurrent | Self::GradientPrevious)
+        matches!(
+            self,
+            Self::GradientCurrent
+                | Self::GradientPrevious
+                | Self::SpecularGradientCurrent
+                | Self::SpecularGradientPrevious
+        )
     }
 
     /// Returns the full names of the channels.
@@ -158,6 +202,26 @@ impl Layer {
             Self::GradientCurrent => &[Alias("gradient.current", RGB, Same)],
             Self::GradientPrevious => &[Alias("gradient.previous", RGB, Same)],
             Self::Lambda => &[Alias("lambda", &["Y"], Same)],
+            Self::Diffuse => &[Alias("diffuse", RGB, Same)],
+            Self::Specular => &[Alias("specular", RGB, Same)],
+            Self::SpecularAlbedo => {
+                &[Alias("specular_albedo", RGB, Same), Alias("GlossCol", RGB, Same), Alias("Glossy Color", RGB, Same)]
+            }
+            Self::Roughness => &[
+                Alias("roughness", &["V"], Same),
+                Alias("roughness", &["Y"], Same),
+                Alias("roughness", &["R"], Same),
+                Alias("roughness", &["X"], Same),
+                Alias("Denoising Roughness", &["X"], Same),
+            ],
+            Self::HitDistance => &[Alias("hit_distance", &["Z"], Same), Alias("hit_distance", &["V"], Same)],
+            Self::SpecularMotion => &[Alias("specular_motion", XY, Same)],
+            Self::SpecularGradientCurrent => &[Alias("specular_gradient.current", RGB, Same)],
+            Self::SpecularGradientPrevious => &[Alias("specular_gradient.previous", RGB, Same)],
+            Self::GlossyDirect => &[Alias("GlossDir", RGB, Same), Alias("Glossy Direct", RGB, Same)],
+            Self::GlossyIndirect => &[Alias("GlossInd", RGB, Same), Alias("Glossy Indirect", RGB, Same)],
+            Self::DiffuseColor => &[Alias("DiffCol", RGB, Same), Alias("Diffuse Color", RGB, Same)],
+            Self::TransmissionColor => &[Alias("TransCol", RGB, Same), Alias("Transmission Color", RGB, Same)],
         }
     }
 }

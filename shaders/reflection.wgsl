@@ -1,0 +1,260 @@
+// Finds where the reflection in each glossy pixel was in the last frame. A reflection does not move with the surface that shows it: it
+// moves as if it lay behind the surface.
+//
+//   h′ = h / max(0.2, 1 + 2·κ·h/cos θ)        distance of the image behind the surface, for a mirror of curvature κ (convex: κ > 0)
+//   V = X + h′·d                              the image, seen in direction d through the surface point X
+//
+// with the distance h from X to what is reflected. The image moves with the surface, and is projected with the last frame's camera. (The
+// formula of a thin mirror, 1/h′ = 1/h + 2·κ/cos θ; κ = Σ Δn·Δp/Σ Δp·Δp over neighbours.)
+//
+// On a curved mirror the place is refined in the last frame's G-buffer: the pixel q is sought at which the normal n is the half vector
+// between the reflected point P and the last camera o′, by Gauss–Newton steps on
+//
+//   r(q) = unit(unit(P − Y) + unit(o′ − Y)) − n(q) = 0,  P = X + h·(d − 2·(d·n)·n)
+//
+// where Y is the place of the surface at q.
+
+#import asvgf::frame::{frame, inside, is_orthographic, project, ray_direction, sample_point, scale_at, seen_position}
+#import asvgf::gloss::{specular_guide, unpack_gloss}
+#ifdef INSTANCED
+#ifndef STILL
+#import asvgf::packing::unpack_displacement
+#endif
+#endif
+#import asvgf::packing::{pack_motion, unpack_normal}
+#ifndef STILL
+#ifdef HOST_MOTION
+#import asvgf::host_motion::host_motion
+#endif
+#import asvgf::packing::unpack_motion
+#endif
+#ifdef REFLECTION_MOTION
+#import asvgf::color::is_finite
+#endif
+
+#ifdef STORAGE_READS
+@group(0) @binding(1) var guide: texture_storage_2d<rg32uint, read>;
+@group(0) @binding(2) var gloss: texture_storage_2d<r32uint, read>;
+
+fn guide_at(pixel: vec2<i32>) -> vec2<u32> {
+    return textureLoad(guide, pixel).xy;
+}
+
+fn gloss_at(pixel: vec2<i32>) -> u32 {
+    return textureLoad(gloss, pixel).x;
+}
+#else
+@group(0) @binding(1) var guide: texture_2d<u32>;
+@group(0) @binding(2) var gloss: texture_2d<u32>;
+
+fn guide_at(pixel: vec2<i32>) -> vec2<u32> {
+    return textureLoad(guide, pixel, 0).xy;
+}
+
+fn gloss_at(pixel: vec2<i32>) -> u32 {
+    return textureLoad(gloss, pixel, 0).x;
+}
+#endif
+#ifndef STILL
+#ifndef HOST_MOTION
+@group(0) @binding(3) var motion: texture_2d<u32>;
+#endif
+@group(0) @binding(4) var guide_previous: texture_2d<u32>;
+#ifdef OBJECTS
+@group(0) @binding(6) var object_previous: texture_2d<u32>;
+#endif
+#ifdef INSTANCED
+// In w the displacement of what each path met.
+@group(0) @binding(10) var specular_radiance: texture_2d<u32>;
+#endif
+#ifdef REFLECTION_MOTION
+@group(0) @binding(7) var reflection_motion: texture_2d<f32>;
+#endif
+#endif
+#ifdef OBJECTS
+@group(0) @binding(5) var object: texture_2d<u32>;
+#endif
+@group(0) @binding(8) var guide_out: texture_storage_2d<rg32uint, write>;
+// Former place of the reflection less its place, in pixels, and the distance of what is reflected; then the motion of the surface, so that
+// the passes that follow read one image.
+@group(0) @binding(9) var reflection_out: texture_storage_2d<rgba32uint, write>;
+
+// Cosine of normals that belong to one curved surface: acos 0.8 is 37°.
+const SAME_SURFACE: f32 = 0.8;
+
+// Distance of what is reflected where no path tells, in parts of the depth.
+const UNKNOWN_DISTANCE: f32 = 0.5;
+
+fn object_at(pixel: vec2<i32>) -> u32 {
+#ifdef OBJECTS
+    return textureLoad(object, pixel, 0).x;
+#else
+    return 0u;
+#endif
+}
+
+// Facts on a pixel's neighbourhood.
+struct Around {
+    // Harmonic mean of the distances of what is reflected: near things move most.
+    hit_distance: f32,
+    curvature: f32,
+}
+
+fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, exists: bool) -> Around {
+    let own = object_at(pixel);
+    let here = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
+    // Normals are rounded, so neighbours must be a few hundredths of a radian apart in the image.
+    let spacing = 1 + i32(frame.size.x >> 9u);
+    var inverse = 0.0;
+    var known = 0.0;
+    var turned = 0.0;
+    var apart = 0.0;
+    let taps = select(0, 25, exists);
+    for (var i = 0; i < taps; i++) {
+        // (i·13) >> 6 is i / 5 for i < 25.
+        let row = (i * 13) >> 6u;
+        let tap = pixel + spacing * (vec2(i - 5 * row, row) - 2);
+        let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
+        let g = guide_at(clamped);
+        let n = unpack_normal(g.x);
+        let there = unpack_gloss(gloss_at(clamped));
+        let same = inside(tap) && g.y != 0u && there.exists && object_at(clamped) == own && dot(n, normal) >= SAME_SURFACE;
+        let p = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(clamped)), bitcast<f32>(g.y)) - here;
+        turned += select(0.0, dot(n - normal, p), same);
+        apart += select(0.0, dot(p, p), same);
+        let told = same && there.hit_distance > 0.0;
+        inverse += select(0.0, 1.0 / there.hit_distance, told);
+        known += select(0.0, 1.0, told);
+    }
+    let distance = select(UNKNOWN_DISTANCE * scale_at(frame.camera, depth), known / inverse, known > 0.0);
+    return Around(distance, select(0.0, turned / apart, apart > 0.0));
+}
+
+#ifndef STILL
+// Least denominator of the thin mirror's formula: a concave mirror may show its image at infinity, or before itself.
+const LEAST_FACTOR: f32 = 0.2;
+
+// Least cosine at which the formula is used.
+const LEAST_COSINE: f32 = 0.1;
+
+// Pixels between the surface's place and the reflection's up to which the two count as one.
+const AS_GOOD_AS_ONE: f32 = 0.01;
+
+// Pixels between the two from which on a curved mirror is searched, and curvature times distance from which on it counts as curved.
+const WORTH_A_SEARCH: f32 = 0.1;
+const CURVED: f32 = 1e-3;
+
+// Steps of the search, and the longest one in pixels.
+const STEPS: i32 = 3;
+const LONGEST_STEP: f32 = 2.0;
+
+// The surface's own motion, packed.
+fn surface_motion(pixel: vec2<i32>, depth: f32) -> vec2<u32> {
+#ifdef HOST_MOTION
+    return host_motion(pixel, depth).packed;
+#else
+    return textureLoad(motion, pixel, 0).xy;
+#endif
+}
+
+// r(q) at a pixel of the last frame, and 1 in w if the mirror is there.
+fn residual(tap: vec2<i32>, reflected: vec3<f32>, own: u32) -> vec4<f32> {
+    let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
+    let g = textureLoad(guide_previous, clamped, 0).xy;
+#ifdef OBJECTS
+    let there = textureLoad(object_previous, clamped, 0).x;
+#else
+    let there = 0u;
+#endif
+    let c = frame.previous;
+    let place = seen_position(c, sample_point(c, vec2<f32>(clamped)), bitcast<f32>(g.y));
+    let to_eye = select(c.offset - place, -c.forward, is_orthographic(c));
+    let half_vector = normalize(reflected - place) + normalize(to_eye);
+    let exists = inside(tap) && g.y != 0u && there == own;
+    return vec4(normalize(half_vector) - unpack_normal(g.x), select(0.0, 1.0, exists));
+}
+
+// The place at which the last frame's mirror shows a point, near a first guess: pixels, from the first pixel's centre.
+fn search(start: vec2<f32>, reflected: vec3<f32>, own: u32, steps: i32) -> vec2<f32> {
+    var q = start;
+    var left = steps;
+    while left > 0 {
+        left -= 1;
+        let base = vec2<i32>(floor(q));
+        let f = q - vec2<f32>(base);
+        let a = residual(base, reflected, own);
+        let b = residual(base + vec2(1, 0), reflected, own);
+        let c = residual(base + vec2(0, 1), reflected, own);
+        let d = residual(base + vec2(1, 1), reflected, own);
+        // Value and slopes of the bilinear surface through the four.
+        let r = mix(mix(a, b, f.x), mix(c, d, f.x), f.y).xyz;
+        let x = mix(b - a, d - c, f.y).xyz;
+        let y = mix(c - a, d - b, f.x).xyz;
+        let xx = dot(x, x);
+        let xy = dot(x, y);
+        let yy = dot(y, y);
+        let determinant = xx * yy - xy * xy;
+        if a.w * b.w * c.w * d.w == 0.0 || determinant < 1e-14 {
+            break;
+        }
+        let step = -vec2(yy * dot(x, r) - xy * dot(y, r), xx * dot(y, r) - xy * dot(x, r)) / determinant;
+        q += step * min(1.0, LONGEST_STEP / max(length(step), 1e-9));
+    }
+    return q;
+}
+
+// The motion of the reflection, in pixels.
+fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: Around, moved: vec3<f32>) -> vec2<f32> {
+    let point = sample_point(frame.camera, vec2<f32>(pixel));
+    let here = seen_position(frame.camera, point, depth);
+    let d = normalize(ray_direction(frame.camera, point));
+    let cosine = abs(dot(d, normal));
+    let h = near.hit_distance;
+    let factor = max(1.0 + 2.0 * near.curvature * h / max(cosine, LEAST_COSINE), LEAST_FACTOR);
+    let image = here + d * (h / factor);
+    let displaced = seen_position(frame.previous, point + moved.xy, moved.z) - here;
+    // What is reflected may have moved: its image moves mirrored, and as much smaller as the mirror shows it.
+#ifdef INSTANCED
+    let own = unpack_displacement(textureLoad(specular_radiance, pixel, 0).w);
+    let mirrored = (own - 2.0 * dot(own, normal) * normal) / factor;
+#else
+    let own = vec3(0.0);
+    let mirrored = vec3(0.0);
+#endif
+    let now = project(frame.camera, image);
+    let before = project(frame.previous, image + displaced + mirrored);
+    var shift = before.xy - now.xy;
+    let is_curved = abs(near.curvature) * h > CURVED;
+    let reflected = here + h * (d - 2.0 * dot(d, normal) * normal) + own;
+    let steps = select(0, STEPS, before.z > 0.0 && is_curved && distance(shift, moved.xy) > WORTH_A_SEARCH);
+    shift = search(vec2<f32>(pixel) + shift, reflected, object_at(pixel), steps) - vec2<f32>(pixel);
+#ifdef REFLECTION_MOTION
+    let given = textureLoad(reflection_motion, pixel, 0).xy;
+    shift = select(shift, given, is_finite(given.x) && is_finite(given.y));
+#endif
+    // Beside a still surface's own motion, rounding counts for nothing.
+    let apart = distance(shift, moved.xy);
+    return select(shift, moved.xy, !(before.z > 0.0) || !(apart > AS_GOOD_AS_ONE));
+}
+#endif
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let pixel = vec2<i32>(id.xy);
+    let g = guide_at(pixel);
+    let bits = gloss_at(pixel);
+    let own = specular_guide(g, bits);
+    let exists = own.y != 0u && inside(pixel);
+    let depth = bitcast<f32>(g.y);
+    let normal = unpack_normal(g.x);
+    let near = around(pixel, depth, normal, exists);
+#ifdef STILL
+    let shift = vec2(0.0);
+    let surface = vec2(0u);
+#else
+    let surface = surface_motion(pixel, depth);
+    let shift = reflection_motion_of(pixel, depth, normal, near, unpack_motion(surface));
+#endif
+    textureStore(guide_out, pixel, vec4(own, 0u, 0u));
+    textureStore(reflection_out, pixel, select(vec4(0u), vec4(pack_motion(shift, near.hit_distance), surface), exists));
+}

@@ -1,0 +1,61 @@
+#define_import_path asvgf::gloss
+
+// The gloss of a pixel's surface in 32 bits, 0 where no specular lobe reflects:
+//   roughness: 8 bits, 1 … 255 for 0 … 1
+//   distance from the surface to what its path met along the lobe: 16 bits, see `pack_unsigned`; 0 if that is unknown
+//   specular part of the reflectance: 8 bits
+
+#import asvgf::packing::{pack_unsigned, unpack_unsigned}
+
+struct Gloss {
+    // Perceptual roughness r; the GGX width is α = r².
+    roughness: f32,
+    // Distance to what the path met, 0 if that is unknown.
+    hit_distance: f32,
+    // Specular part of the reflectance, 0…1.
+    part: f32,
+    // True if there is a specular lobe.
+    exists: bool,
+}
+
+// Greatest code of a roughness.
+const ROUGH: f32 = 254.0;
+
+fn pack_gloss(roughness: f32, hit_distance: f32, part: f32) -> u32 {
+    let code = 1u + u32(clamp(roughness, 0.0, 1.0) * ROUGH + 0.5);
+    return code | (pack_unsigned(hit_distance) << 8u) | (u32(clamp(part, 0.0, 1.0) * 255.0 + 0.5) << 24u);
+}
+
+fn unpack_gloss(bits: u32) -> Gloss {
+    let code = bits & 0xffu;
+    return Gloss(
+        roughness_of(code),
+        unpack_unsigned((bits >> 8u) & 0xffffu),
+        f32(bits >> 24u) * (1.0 / 255.0),
+        code != 0u,
+    );
+}
+
+// The roughness of its code; 0 for a surface without a lobe.
+fn roughness_of(code: u32) -> f32 {
+    return f32(max(code, 1u) - 1u) * (1.0 / ROUGH);
+}
+
+// The guide of the specular signal: the surface's, whose depth ends with the code of the roughness, and 0 where there is no lobe. The
+// depth loses less than 2⁻¹⁵ of itself.
+fn specular_guide(guide: vec2<u32>, gloss: u32) -> vec2<u32> {
+    let code = gloss & 0xffu;
+    return select(vec2(0u), vec2(guide.x, (guide.y & 0xffffff00u) | code), code != 0u && guide.y != 0u);
+}
+
+// The roughness in a guide of the specular signal.
+fn guide_roughness(guide: vec2<u32>) -> f32 {
+    return roughness_of(guide.y & 0xffu);
+}
+
+// Width of a reflection on the surface's image, in pixels: f·α·h/((z + h)·z), with the focal length f in pixels, the surface's depth z and
+// the distance h of what it reflects; as far as half of the GGX lobe's light reaches (tan θ = α).
+fn lobe_width(roughness: f32, hit_distance: f32, depth: f32, focal: f32) -> f32 {
+    // The quotient of h first: h may be as good as infinite.
+    return focal * roughness * roughness / ((depth / max(hit_distance, 1e-30) + 1.0) * depth);
+}

@@ -1,0 +1,31 @@
+//! Former places of reflections, see shaders/reflection.wgsl.
+
+use super::prelude::*;
+
+pub(crate) static PASS: Pass = Pass {
+    name: "reflection",
+    source: include_str!("../../shaders/reflection.wgsl"),
+    grid: Pixels,
+    features: &[&[
+        knows(HostMotion).unless(Still),
+        knows(PreviousDepth).with(HostMotion).unless(Still),
+        knows(Objects),
+        knows(Still),
+        knows(Instanced).unless(Still),
+        knows(ReflectionMotion).unless(Still),
+    ]],
+    bindings: &[&[
+        now("guide", Image::Guide).at_many_taps(),
+        now("gloss", Image::Gloss).at_many_taps(),
+        now("motion", Image::Motion).or_host(HostMotion, HostView::Motion).unless(Still),
+        host("previous_depth", HostView::PreviousDepth).with(PreviousDepth).unless(Still),
+        now("specular_radiance", Image::Radiance).of_specular().with(Instanced),
+        host("reflection_motion", HostView::ReflectionMotion).with(ReflectionMotion).unless(Still),
+        before("guide_previous", Image::Guide).at_many_taps().unless(Still),
+        now("object", Image::Object).with(Objects),
+        before("object_previous", Image::Object).with(Objects).unless(Still),
+        out("guide_out", Image::Guide).of_specular(),
+        out("reflection_out", Image::Reflection),
+    ]],
+    traces: false,
+};
