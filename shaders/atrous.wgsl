@@ -113,13 +113,13 @@ const ROUGHNESS_TOLERANCE: f32 = 0.05;
 
 // Deviation of the footprint's stop, in widths of the reflection, and the least one in pixels. (Docs: below three widths the error grows
 // up to fivefold.)
-const FOOTPRINT: f32 = 8.0;
+const FOOTPRINT: f32 = 2.0;
 const LEAST_FOOTPRINT: f32 = 2.0;
 
 // Exponent of the footprint's stop at a distance of one stride.
 fn footprint(pixel: vec2<i32>, roughness: f32, depth: f32) -> f32 {
     let hit_distance = unpack_motion(textureLoad(reflection, pixel, 0).xy).z;
-    let width = FOOTPRINT * lobe_width(roughness, hit_distance, depth, sqrt(frame.camera.inverse_du));
+    let width = FOOTPRINT * lobe_width(roughness, hit_distance, depth);
     let deviation = max(width, LEAST_FOOTPRINT) / f32(stride);
     return 0.5 / (deviation * deviation);
 }

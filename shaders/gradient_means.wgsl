@@ -96,7 +96,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef SPECULAR_SIGNAL
         let reflection = reflection_at(pixel);
         let reflected = mean_of(bilinear_taps(in_mirror(origin), vec2<f32>(pixel) + reflection.xy));
-        let width = lobe_width(guide_roughness(g), reflection.z, depth, sqrt(frame.camera.inverse_du));
+        let width = lobe_width(guide_roughness(g), reflection.z, depth);
         history = combined(history, reflected, weight_of(evidence_at(stratum).sums), reflection.xy, moved.xy, width);
 #endif
         if history.weight <= 0.0 {

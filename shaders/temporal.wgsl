@@ -74,9 +74,7 @@
 @group(0) @binding(10) var external_lambda: texture_2d<f32>;
 #endif
 #ifdef MIXED_GLOSS
-#ifndef STILL
 @group(0) @binding(12) var gloss: texture_2d<u32>;
-#endif
 #endif
 @group(0) @binding(13) var history_out: texture_storage_2d<rg32uint, write>;
 #ifdef STEADY
@@ -150,7 +148,7 @@ fn reproject_gloss(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, g: vec2<u32>,
     let reflection = reflection_at(pixel);
     let surface = reproject(pixel, m.xy, origin, seen);
     let reflected = reproject(pixel, reflection.xy, in_mirror(origin), seen);
-    let width = lobe_width(guide_roughness(g), reflection.z, depth, sqrt(frame.camera.inverse_du));
+    let width = lobe_width(guide_roughness(g), reflection.z, depth);
     return combined(surface, reflected, weight_of(evidence_around(pixel, origin.normal)), reflection.xy, m.xy, width);
 }
 #endif
@@ -183,11 +181,15 @@ fn longest_of_mixed(pixel: vec2<i32>, m: vec3<f32>, depth: f32) -> f32 {
 
 // The part of a history's length that is kept: (1 − λ)^k. Failure: pow(0, 0) may be anything, but a power of 0 shall shorten
 // nothing. Rule: the base stays above 0.
-fn kept_part(lambda: f32) -> f32 {
+fn kept_part(lambda: f32, pixel: vec2<i32>) -> f32 {
 #ifdef SPECULAR_SIGNAL
     let power = frame.gloss_history_power;
 #else
+#ifdef MIXED_GLOSS
+    let power = mix(frame.history_power, frame.gloss_history_power, unpack_gloss(textureLoad(gloss, pixel, 0).x).part);
+#else
     let power = frame.history_power;
+#endif
 #endif
     return pow(max(1.0 - lambda, 1e-9), power);
 }
@@ -328,10 +330,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         variance_before *= ratio.w * ratio.w;
 #endif
 #ifdef GRADIENT
-        kept *= kept_part(lambda);
+        kept *= kept_part(lambda, pixel);
 #endif
 #ifdef EXTERNAL_LAMBDA
-        kept *= kept_part(lambda);
+        kept *= kept_part(lambda, pixel);
 #endif
         length = min(kept + 1.0, frame.max_history);
 #ifdef BLEND_BY_LAMBDA

@@ -5,6 +5,7 @@
 //   distance from the surface to what its path met along the lobe: 16 bits, see `pack_unsigned`; 0 if that is unknown
 //   specular part of the reflectance: 8 bits
 
+#import asvgf::frame::{frame, is_orthographic}
 #import asvgf::packing::{pack_unsigned, unpack_unsigned}
 
 struct Gloss {
@@ -53,9 +54,11 @@ fn guide_roughness(guide: vec2<u32>) -> f32 {
     return roughness_of(guide.y & 0xffu);
 }
 
-// Width of a reflection on the surface's image, in pixels: f·α·h/((z + h)·z), with the focal length f in pixels, the surface's depth z and
-// the distance h of what it reflects; as far as half of the GGX lobe's light reaches (tan θ = α).
-fn lobe_width(roughness: f32, hit_distance: f32, depth: f32, focal: f32) -> f32 {
+// Width of a point's reflection, in pixels: f·α·h/(z + h) with the focal length f in pixels, the surface's depth z and the distance h of what
+// it reflects, as far as half of the GGX lobe's light reaches (tan θ = α). An orthographic view shows all distances alike: f·α·h.
+fn lobe_width(roughness: f32, hit_distance: f32, depth: f32) -> f32 {
+    let c = frame.camera;
     // The quotient of h first: h may be as good as infinite.
-    return focal * roughness * roughness / ((depth / max(hit_distance, 1e-30) + 1.0) * depth);
+    let apparent = select(1.0 / (depth / max(hit_distance, 1e-30) + 1.0), min(hit_distance, 1e9), is_orthographic(c));
+    return sqrt(c.inverse_du) * roughness * roughness * apparent;
 }

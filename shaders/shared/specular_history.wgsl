@@ -11,7 +11,7 @@
 // Failure: where something new enters a mirror at its edge, ghosts of the old reflection stayed. Reason: V is not there yet, and S shows
 // what has moved on. Rule: a history that is not wholly V's is at most as long as the lobe hides the motion,
 //
-//   n ≤ 1 + width / (p·(1 − w))          p: pixels between the places of V and S; width: of the reflection (gloss.wgsl)
+//   n ≤ 1 + ¼·width / (p·(1 − w))          p: pixels between the places of V and S; width: of the reflection (gloss.wgsl)
 
 #import asvgf::frame::frame
 #import asvgf::history_taps::History
@@ -27,6 +27,9 @@ const PRIOR: f32 = 4.0;
 
 // Weight of V from which on the history counts as wholly V's.
 const TRUSTED: f32 = 0.999;
+
+// Part of a reflection's width by which it may slide unnoticed over a whole history.
+const HIDDEN: f32 = 0.25;
 
 // Cosine of normals of strata whose evidence counts for a pixel.
 const ONE_SURFACE: f32 = 0.9;
@@ -84,7 +87,7 @@ fn combined(s: History, v: History, w: f32, shift: vec2<f32>, moved: vec2<f32>, 
     let weight = select(select(0.0, 1.0, v.weight > 0.0), w, both);
     var h = mixed(s, v, weight);
     let slid = distance(shift, moved) * (1.0 - weight);
-    let longest = 1.0 + width / max(slid, 1e-3);
+    let longest = 1.0 + HIDDEN * width / max(slid, 1e-3);
     h.length = select(min(h.length, longest), h.length, weight >= TRUSTED);
     return h;
 }

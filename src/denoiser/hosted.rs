@@ -144,7 +144,7 @@ impl<F: FnMut(&Pass, &mut CommandEncoder)> Stepwise<'_, F> {
             textures: !inputs.albedo && !inputs.demodulated,
             emission: !inputs.emission && !inputs.demodulated,
             specular: !inputs.specular,
-            summed: plan.features.has(Feature::SummedAlbedo),
+            reflectance: inputs.reflectance,
         };
         let Some(begun) = denoiser.history.take_begun() else { return Err(Error::NotBegun) };
         let Begun { identity, mut moment, motion, mut recording, .. } = begun;

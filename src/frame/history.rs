@@ -72,8 +72,8 @@ pub(crate) struct Light {
     pub emission: bool,
     /// True if specular light is part of it, false if that has a history of its own.
     pub specular: bool,
-    /// True if it is divided by the sum of two reflectances.
-    pub summed: bool,
+    /// True if a specular reflectance divides it, or the specular light.
+    pub reflectance: bool,
 }
 
 /// The facts that decide whether a frame continues another one.

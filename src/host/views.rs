@@ -201,12 +201,14 @@ pub(crate) fn shading(
         return Ok(());
     }
     inputs.pairs = given.pairs.map(|_| PairInputs::default());
-    inputs.specular_pairs = specular_pairs.map(|_| PairInputs::default());
     inputs.lambda = given.lambda.is_some();
     let missing = |view, setting, remedy| Error::ViewMissing { view, setting, remedy };
     match settings.filter.gradient.hosted(inputs.lambda, inputs.pairs.is_some()) {
         // Pairs are not needed, because the scene has not changed.
-        Gradient::Pairs if !changes.scene => Ok(()),
+        Gradient::Pairs if !changes.scene => {
+            inputs.specular_pairs = specular_pairs.map(|_| PairInputs::default());
+            Ok(())
+        }
         Gradient::Pairs => {
             let none = missing("pairs", "Gradient::Pairs", "fill `Shading::pairs`, or choose Gradient::Automatic");
             inputs.pairs = Some(pairs(PAIRS, given.pairs.as_ref().ok_or(none)?, size)?);

@@ -13,6 +13,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(HistoryRatio),
         knows(SignedGradient),
         knows(Outliers).unless(BlinnPhong),
+        knows(Gloss).with(Outliers).unless(BlinnPhong),
         knows(Instanced).with(BlinnPhong),
         knows(Textures).with(BlinnPhong),
         knows(FoldedImages).with(BlinnPhong),

@@ -8,7 +8,14 @@ pub(crate) static PASS: Pass = Pass {
     grid: Strata,
     features: &[
         shared::HOST_INPUT,
-        &[knows(Objects), knows(Feedback), knows(MissingSamples), knows(Outliers), knows(SpecularSignal)],
+        &[
+            knows(Objects),
+            knows(Feedback),
+            knows(MissingSamples),
+            knows(Outliers),
+            knows(Gloss).with(Outliers),
+            knows(SpecularSignal),
+        ],
     ],
     bindings: &[
         shared::SAMPLE_AND_HISTORY,

@@ -8,7 +8,14 @@ pub(crate) static PASS: Pass = Pass {
     grid: Strata,
     features: &[
         shared::HOST_INPUT,
-        &[knows(Still), knows(InPlace), knows(MissingSamples), knows(Steady), knows(SpecularSignal).unless(Still)],
+        &[
+            knows(Still),
+            knows(InPlace),
+            knows(MissingSamples),
+            knows(Steady),
+            knows(Gloss),
+            knows(SpecularSignal).unless(Still),
+        ],
     ],
     bindings: &[
         shared::SAMPLE_AND_HISTORY,

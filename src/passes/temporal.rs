@@ -23,6 +23,7 @@ pub(crate) static PASS: Pass = Pass {
             knows(MissingSamples),
             knows(Steady),
             knows(Outliers),
+            knows(Gloss).with(Outliers),
             knows(Diagnostics).with(Outliers),
             knows(KeepWeights),
             knows(SpecularSignal),

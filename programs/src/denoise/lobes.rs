@@ -6,7 +6,10 @@ use crate::sequence::layers::Layer;
 /// Splits a frame's light, if its layers can: leaves diffuse light and emission as the colour, specular light as
 /// [`Layer::Specular`], and the albedo of each. Light of the other lobes, such as Blender's transmission, counts as diffuse.
 pub fn split(pixels: &mut Pixels) {
-    let Some(specular) = specular(pixels) else { return };
+    let Some(specular) = specular(pixels) else {
+        undivided(pixels);
+        return;
+    };
     let emission = pixels.get(Layer::Emission).map(<[f32]>::to_vec);
     let diffuse = match (pixels.get(Layer::Diffuse), pixels.get(Layer::Color)) {
         (Some(diffuse), _) => {
@@ -16,14 +19,27 @@ pub fn split(pixels: &mut Pixels) {
         (None, Some(all)) => all.iter().zip(&specular).map(|(all, specular)| difference(*all, *specular)).collect(),
         (None, None) => return,
     };
-    if let Some(color) = pixels.get(Layer::DiffuseColor) {
-        let through = pixels.get(Layer::TransmissionColor);
-        let albedo = color.iter().enumerate().map(|(i, color)| color + through.map_or(0.0, |through| through[i]));
-        let albedo = albedo.collect();
-        pixels.set(Layer::Albedo, Some(albedo));
-    }
+    take_diffuse_color(pixels);
     pixels.set(Layer::Color, Some(diffuse));
     pixels.set(Layer::Specular, Some(specular));
+}
+
+/// Gives a frame Blender's colours of the diffuse and the other lobes as its albedo, if it has them. True if it does.
+fn take_diffuse_color(pixels: &mut Pixels) -> bool {
+    let Some(color) = pixels.get(Layer::DiffuseColor) else { return false };
+    let through = pixels.get(Layer::TransmissionColor);
+    let albedo = color.iter().enumerate().map(|(i, color)| color + through.map_or(0.0, |through| through[i])).collect();
+    pixels.set(Layer::Albedo, Some(albedo));
+    true
+}
+
+/// Prepares the reflectances of a frame whose light is one radiance. Failure: a metal was divided by its reflectance twice. Reason:
+/// Blender's denoising albedo holds the specular colour already. Rule: a specular reflectance counts beside an albedo that is
+/// diffuse alone, as Blender's Diffuse Color is, or beside a roughness, which Blender does not write.
+fn undivided(pixels: &mut Pixels) {
+    if !take_diffuse_color(pixels) && pixels.get(Layer::Roughness).is_none() {
+        pixels.set(Layer::SpecularAlbedo, None);
+    }
 }
 
 /// The specular light, with its reflectance.
