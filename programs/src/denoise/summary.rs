@@ -18,13 +18,13 @@ pub fn before(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -
     }
     out += "\n";
     for (layer, names) in &sequence.taken {
-        out += &format!("  {:<18}{names}\n", layer.name());
+        out += &format!("  {:<27}{names}\n", layer.name());
     }
     if !sequence.other_view_layers.is_empty() {
         let others = sequence.other_view_layers.join(", ");
         out += &format!("view layer {}: there is {others} too, see --layer\n", quoted(&sequence.view_layer));
     }
-    let absent: Vec<&str> = Layer::ALL.into_iter().filter(|&layer| !sequence.has(layer)).map(Layer::name).collect();
+    let absent: Vec<&str> = Layer::ALL.into_iter().filter(|&layer| matters(sequence, layer)).map(Layer::name).collect();
     if !absent.is_empty() {
         out += &format!("left out, because the files lack it: {}\n", absent.join(", "));
     }
@@ -39,6 +39,21 @@ pub fn before(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -
         out += &format!("note: {note}\n");
     }
     out
+}
+
+/// True if a layer is absent and its absence costs something. Gloss has layers of its own in files that have any of them.
+fn matters(sequence: &Sequence, layer: Layer) -> bool {
+    let of_gloss = [
+        Layer::Specular,
+        Layer::SpecularAlbedo,
+        Layer::Roughness,
+        Layer::HitDistance,
+        Layer::SpecularGradientCurrent,
+        Layer::SpecularGradientPrevious,
+    ];
+    let shines = sequence.has(Layer::Specular) || sequence.has(Layer::GlossyDirect) || sequence.has(Layer::Roughness);
+    let known = (layer as usize) <= Layer::Lambda as usize || shines && of_gloss.contains(&layer);
+    known && !sequence.has(layer) && !(layer == Layer::Specular && sequence.has(Layer::GlossyDirect))
 }
 
 fn ordinal(step: i64) -> String {
@@ -81,7 +96,15 @@ fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> Str
         Some(_) => "past and future, edges of points",
         None => "past",
     };
-    format!("{edges}{albedo}; {followed}; {alpha}; {future}")
+    let apart = sequence.has(Layer::Specular)
+        || [Layer::GlossyDirect, Layer::GlossyIndirect, Layer::SpecularAlbedo].iter().all(|&layer| sequence.has(layer));
+    let gloss = match (apart, sequence.has(Layer::HitDistance), sequence.has(Layer::Roughness)) {
+        (true, true, _) => "; specular light apart, which follows reflections",
+        (true, false, _) => "; specular light apart, which follows reflections half the depth away",
+        (false, _, true) => "; specular light in one radiance, whose history is short where reflections slide",
+        (false, _, false) => "",
+    };
+    format!("{edges}{albedo}{gloss}; {followed}; {alpha}; {future}")
 }
 
 /// True if motion is known: from vectors, or from a moving camera in front of known surfaces.

@@ -362,12 +362,16 @@ impl Sequence {
     fn places(&self, path: &Path, image: &Channels) -> Result<Places, SequenceError> {
         let places = layers::find(&self.source.names, self.source.view_layer.as_deref(), image);
         let places = places.map_err(|e| wrong(path, e))?;
-        let pairs = [Layer::GradientCurrent, Layer::GradientPrevious];
-        if let [Some(_), None] | [None, Some(_)] = pairs.map(|layer| places.get(layer)) {
-            return Err(wrong(
-                path,
-                "gradient.current and gradient.previous only mean something together; one is missing",
-            ));
+        let diffuse = [Layer::GradientCurrent, Layer::GradientPrevious];
+        let specular = [Layer::SpecularGradientCurrent, Layer::SpecularGradientPrevious];
+        for pairs in [diffuse, specular] {
+            if let [Some(_), None] | [None, Some(_)] = pairs.map(|layer| places.get(layer)) {
+                let [current, previous] = pairs.map(Layer::name);
+                return Err(wrong(
+                    path,
+                    format!("{current} and {previous} only mean something together; one is missing"),
+                ));
+            }
         }
         Ok(places)
     }
