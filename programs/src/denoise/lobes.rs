@@ -63,14 +63,13 @@ fn take_diffuse_color(pixels: &mut Pixels) -> bool {
 }
 
 /// Prepares the reflectances of a frame whose light is one radiance. Failure: a metal was divided by its reflectance twice. Reason:
-/// Blender's denoising albedo holds the specular colour already. Rule: a specular reflectance counts beside an albedo that is
-/// diffuse alone, as Blender's Diffuse Color is, or beside a roughness, which Blender does not write.
+/// Blender's denoising albedo holds the specular colour already. Rule: a specular reflectance counts beside a roughness alone, which
+/// Blender does not write, and Blender's Diffuse Color is then the albedo.
 fn undivided(pixels: &mut Pixels) {
-    if pixels.get(Layer::SpecularAlbedo).is_some()
-        && !take_diffuse_color(pixels)
-        && pixels.get(Layer::Roughness).is_none()
-    {
+    if pixels.get(Layer::Roughness).is_none() {
         pixels.set(Layer::SpecularAlbedo, None);
+    } else if pixels.get(Layer::SpecularAlbedo).is_some() {
+        take_diffuse_color(pixels);
     }
 }
 
@@ -79,6 +78,9 @@ fn specular(pixels: &Pixels) -> Option<Vec<f32>> {
     if let Some(specular) = pixels.get(Layer::Specular) {
         return Some(specular.to_vec());
     }
+    // Failure: a room by Cycles had a relMSE of 0.0149 with its passes apart, and of 0.0134 without. Reason: no pass says where
+    // reflections are. Rule: the passes are split beside a roughness or a distance alone.
+    pixels.get(Layer::Roughness).or(pixels.get(Layer::HitDistance))?;
     let color = pixels.get(Layer::SpecularAlbedo)?;
     // Both are needed: light of one alone would leave the other in the diffuse light.
     let (direct, indirect) = (pixels.get(Layer::GlossyDirect)?, pixels.get(Layer::GlossyIndirect)?);
@@ -123,7 +125,7 @@ mod tests {
     fn blenders_passes_are_multiplied() {
         let glossy = [(Layer::SpecularAlbedo, 0.5), (Layer::GlossyDirect, 1.0), (Layer::GlossyIndirect, 0.5)];
         let rest = [(Layer::Color, 1.0), (Layer::DiffuseColor, 0.25), (Layer::TransmissionColor, 0.5)];
-        let mut pixels = frame(&[&glossy[..], &rest[..]].concat());
+        let mut pixels = frame(&[&glossy[..], &rest[..], &[(Layer::Roughness, 0.5)]].concat());
         split(&mut pixels);
         let found = [Layer::Specular, Layer::Color, Layer::Albedo].map(|layer| first(&pixels, layer));
         assert_eq!(found, [Some(0.75), Some(0.25), Some(0.75)]);

@@ -51,7 +51,7 @@ fn matters(sequence: &Sequence, layer: Layer) -> bool {
         Layer::SpecularGradientCurrent,
         Layer::SpecularGradientPrevious,
     ];
-    let shines = sequence.has(Layer::Specular) || sequence.has(Layer::GlossyDirect) || sequence.has(Layer::Roughness);
+    let shines = sequence.has(Layer::Specular) || sequence.has(Layer::Roughness);
     let known = (layer as usize) <= Layer::Lambda as usize || shines && of_gloss.contains(&layer);
     known && !sequence.has(layer) && !(layer == Layer::Specular && sequence.has(Layer::GlossyDirect))
 }
@@ -96,8 +96,9 @@ fn level(sequence: &Sequence, settings: &Settings, ahead: Option<&Ahead>) -> Str
         Some(_) => "past and future, edges of points",
         None => "past",
     };
-    let apart = sequence.has(Layer::Specular)
-        || [Layer::GlossyDirect, Layer::GlossyIndirect, Layer::SpecularAlbedo].iter().all(|&layer| sequence.has(layer));
+    let passes = [Layer::GlossyDirect, Layer::GlossyIndirect, Layer::SpecularAlbedo];
+    let placed = sequence.has(Layer::Roughness) || sequence.has(Layer::HitDistance);
+    let apart = sequence.has(Layer::Specular) || placed && passes.iter().all(|&layer| sequence.has(layer));
     let gloss = match (apart, sequence.has(Layer::HitDistance), sequence.has(Layer::Roughness)) {
         (true, true, _) => "; specular light apart, which follows reflections",
         (true, false, _) => "; specular light apart, which follows reflections half the depth away",
