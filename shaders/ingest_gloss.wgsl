@@ -49,8 +49,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var shines = true;
     var part = UNKNOWN_PART;
 #ifdef REFLECTANCE
-    let specular = luminance(sanitize(textureLoad(reflectance, pixel, 0).xyz));
-    shines = specular > 0.0;
+    // Failure: a pixel whose reflectance was no number in one channel shone thrice as bright, and dimmed those around. Reason: light is
+    // divided by nothing there, and was filtered with light that is divided by a reflectance. Rule: such a pixel has no specular lobe.
+    let reflecting = textureLoad(reflectance, pixel, 0).xyz;
+    let known = is_finite(reflecting.x) && is_finite(reflecting.y) && is_finite(reflecting.z);
+    let specular = luminance(sanitize(reflecting));
+    shines = specular > 0.0 && known;
     part = min(specular, 1.0);
 #ifdef ALBEDO
     part = specular / max(specular + luminance(sanitize(textureLoad(albedo, pixel, 0).xyz)), 1e-6);

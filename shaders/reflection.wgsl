@@ -4,8 +4,12 @@
 //   h′ = h / max(0.2, 1 + 2·κ·h/cos θ)        distance of the image behind the surface, for a mirror of curvature κ (convex: κ > 0)
 //   V = X + h′·d                              the image, seen in direction d through the surface point X
 //
-// with the distance h from X to what is reflected. The image moves with the surface, and is projected with the last frame's camera. (The
-// formula of a thin mirror, 1/h′ = 1/h + 2·κ/cos θ; κ = Σ Δn·Δp/Σ Δp·Δp over neighbours.)
+// with the distance h from X to what is reflected. (The formula of a thin mirror, 1/h′ = 1/h + 2·κ/cos θ; κ = Σ Δn·Δp/Σ Δp·Δp over
+// neighbours.) For the displacements Δ_X of the surface and Δ_P of what is reflected since the last frame, the image was at
+//
+//   V + Δ_X + (h′/h)·(I − 2·n·nᵀ)·(Δ_P − Δ_X)
+//
+// which is projected with the last frame's camera.
 //
 // On a curved mirror the place is refined in the last frame's G-buffer: the pixel q is sought at which the normal n is the half vector
 // between the reflected point P and the last camera o′, by Gauss–Newton steps on
@@ -213,21 +217,27 @@ fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: A
     let factor = max(1.0 + 2.0 * near.curvature * h / max(cosine, LEAST_COSINE), LEAST_FACTOR);
     let image = here + d * (h / factor);
     let displaced = seen_position(frame.previous, point + moved.xy, moved.z) - here;
-    // What is reflected may have moved: its image moves mirrored, and as much smaller as the mirror shows it.
+    // Failure: the reflection in a mirror that slid along itself was sought where the mirror had been, although it rests. Reason: the
+    // image of a point at rest does not move with the mirror; seen from the mirror, the point moves the other way. Rule: the image moves
+    // with the mirror, and by the mirrored motion of what is reflected against the mirror, as much smaller as the mirror shows it.
 #ifdef INSTANCED
     let own = unpack_displacement(textureLoad(specular_radiance, pixel, 0).w);
-    let mirrored = (own - 2.0 * dot(own, normal) * normal) / factor;
 #else
     let own = vec3(0.0);
-    let mirrored = vec3(0.0);
 #endif
+    let against = own - displaced;
+    let mirrored = (against - 2.0 * dot(against, normal) * normal) / factor;
     let now = project(frame.camera, image);
     let before = project(frame.previous, image + displaced + mirrored);
     var shift = before.xy - now.xy;
     let is_curved = abs(near.curvature) * h > CURVED;
     let reflected = here + h * (d - 2.0 * dot(d, normal) * normal) + own;
     let steps = select(0, STEPS, before.z > 0.0 && is_curved && distance(shift, moved.xy) > WORTH_A_SEARCH);
-    shift = search(vec2<f32>(pixel) + shift, reflected, object_at(pixel), steps) - vec2<f32>(pixel);
+    // Failure: reflections on curved mirrors were off by the change of the jitter. Reason: a motion counts without either frame's jitter,
+    // but the last frame's G-buffer was sampled with its own. Rule: the search starts and ends with the difference.
+    let jitter = vec2(frame.previous.jitter_x - frame.camera.jitter_x, frame.previous.jitter_y - frame.camera.jitter_y);
+    let start = vec2<f32>(pixel) + shift - jitter;
+    shift += search(start, reflected, object_at(pixel), steps) - start;
 #ifdef REFLECTION_MOTION
     let given = textureLoad(reflection_motion, pixel, 0).xy;
     shift = select(shift, given, is_finite(given.x) && is_finite(given.y));

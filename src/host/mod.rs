@@ -130,7 +130,8 @@ pub struct Gloss<'a> {
     pub radiance: Option<&'a TextureView>,
     /// Part of the light from all around that the specular lobe reflects towards the eye, 0…1, in the formats of [`Shading::albedo`]:
     /// the pre-integrated reflectance of that angle and roughness, or F₀. 0 where there is no specular lobe. Radiance is divided by it
-    /// before filtering (by at least 0.02) and multiplied by it afterwards. Without it, all surfaces count as glossy.
+    /// before filtering (by at least 0.02) and multiplied by it afterwards. Without it, all surfaces count as glossy. A pixel
+    /// whose reflectance is not a number shows no specular light.
     pub reflectance: Option<&'a TextureView>,
     /// Perceptual roughness, 0…1, the square root of the GGX width α: first channel of `r8unorm`, `r16float`, `r32float` or `rg…` of
     /// these, or fourth channel of `rgba8unorm`, `rgba16float` or `rgba32float`, where renderers keep it beside the normal. Without it,

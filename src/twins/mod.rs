@@ -33,6 +33,7 @@ mod last_frame;
 mod outliers;
 mod packing;
 mod properties;
+mod reflection;
 mod reshade;
 mod resolve;
 mod sky;
