@@ -135,7 +135,8 @@ fn round_to_f16(x: vec3<f32>) -> vec3<f32> {
 const LEAST_DISPLACEMENT: f32 = 5.96e-8;
 
 // Packs a displacement into 32 bits: three signed 9-bit mantissas with a common exponent of 5 bits (compare RGB9E5 of
-// EXT_texture_shared_exponent). The largest component is exact to 2⁻⁸ of itself; displacements below 2⁻²⁴ count as none.
+// EXT_texture_shared_exponent). Components are exact to 1/255 of the largest one. Displacements below 2⁻²⁴ count as none, and
+// components beyond ±2⁸ as ±2⁸.
 fn pack_displacement(d: vec3<f32>) -> u32 {
     let largest = max(max(abs(d.x), abs(d.y)), abs(d.z));
     if !(largest >= LEAST_DISPLACEMENT) {

@@ -2,7 +2,7 @@
 
 use super::codec::{pack_motion, unpack_motion};
 use super::compute::compute;
-use super::plane::{V, cross, dot, length, unit};
+use super::plane::{V, cross, dot, length, scale, unit};
 use super::random::Random;
 use crate::passes::resolve;
 use crate::plan::Features;
@@ -18,9 +18,9 @@ fn cases() -> Vec<Case> {
     let mut random = Random(1);
     let mut cases: Vec<Case> = (0..20_000)
         .map(|_| {
-            let scale = 10.0_f64.powf(random.between(-30.0, 30.0));
+            let size = 10.0_f64.powf(random.between(-30.0, 30.0));
             Case {
-                color: [0; 3].map(|_| (scale * random.unit()) as f32),
+                color: [0; 3].map(|_| (size * random.unit()) as f32),
                 normal: random.direction(),
                 octahedral: (random.unit() * 4294967295.0) as u32,
                 motion: [random.between(-4200.0, 4200.0), random.between(-9.0, 9.0), 1000.0 * random.unit().powi(4)]
@@ -101,4 +101,67 @@ fn every_format_keeps_what_it_promises() {
             assert!((f64::from(found[3][i]) - expected).abs() < 1e-6, "{:?} for {unfolded:?}", found[3]);
         }
     }
+}
+
+#[test]
+fn gloss_and_displacements_too() {
+    let mut random = Random(2);
+    let mut numbers: Vec<[f32; 4]> = (0..20_000)
+        .flat_map(|_| {
+            let mut any = |low, high| 10.0_f64.powf(random.between(low, high));
+            let [distance, depth, size] = [any(-8.0, 9.9), any(-18.0, 18.0), any(-8.0, 2.4)];
+            let gloss = [random.unit(), distance, random.unit(), depth];
+            // One component may be far below the others.
+            let [x, y, z] = random.direction();
+            let d = scale([x, y * random.unit().powi(8), z], size);
+            [gloss, [d[0], d[1], d[2], 0.0]].map(|v| v.map(|x| x as f32))
+        })
+        .collect();
+    // The edge cases are the ends of all ranges, and displacements at their limits.
+    let edges = [
+        ([0.0, 0.0, 0.0, 1e-18], [0.0; 3]),
+        ([1.0, 8e9, 1.0, 1e18], [-256.0, 256.0, 0.0]),
+        ([-1.0, -1.0, -1.0, 1.0], [0.0, 0.0, 5.96e-8]),
+        ([2.0, 3e38, 2.0, 1.0], [5.9e-8, 0.0, 0.0]),
+        ([0.5, 1e-30, 0.5, 1.999_999_9], [1.0, -1.0, 1.0]),
+        ([0.5, 1.0, 0.5, 1.0], [0.999_999_9, 0.0, -1e-3]),
+        ([0.5, 1.0, 0.5, 1.0], [1e3, -1.0, 0.0]),
+    ];
+    for (case, (gloss, [x, y, z])) in numbers.chunks_exact_mut(2).zip(edges) {
+        (case[0], case[1]) = (gloss, [x, y, z, 0.0]);
+    }
+    let results = compute(
+        include_str!("packing_gloss.wgsl"),
+        &resolve::PASS,
+        Features::default(),
+        &numbers,
+        3 * numbers.len() / 2,
+    );
+    let mut worst = 0.0_f64;
+    for (case, found) in numbers.chunks_exact(2).zip(results.chunks_exact(3)) {
+        let [roughness, distance, part, depth] = case[0].map(f64::from);
+        let back = found[0].map(f64::from);
+        let what = || format!("{case:?} became {found:?}");
+        assert_eq!(back[3], 1.0, "{}: it shines", what());
+        // Codes are steps of 1/254 and 1/255, halved by rounding.
+        assert!((back[0] - roughness.clamp(0.0, 1.0)).abs() <= 0.501 / 254.0, "{}: roughness", what());
+        assert!((back[2] - part.clamp(0.0, 1.0)).abs() <= 0.501 / 255.0, "{}: part", what());
+        let far = distance.clamp(0.0, 8.5e9);
+        assert!((back[1] - far).abs() <= (far * 2.0_f64.powi(-11)).max(2.0_f64.powi(-30)), "{}: distance", what());
+        let [shown, kept, dull, none] = found[1].map(f64::from);
+        assert_eq!([shown, dull, none], [back[0], 0.0, 0.0], "{}: the guide's roughness", what());
+        assert!((kept - depth).abs() < depth * 2.0_f64.powi(-15), "{}: depth", what());
+        let d = [case[1][0], case[1][1], case[1][2]].map(f64::from);
+        let largest = d.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        for (&found, exact) in found[2].iter().zip(d) {
+            if largest < 5.96e-8 {
+                assert_eq!(found, 0.0, "{}: as good as none", what());
+                continue;
+            }
+            let off = (f64::from(found) - exact.clamp(-256.0, 256.0)).abs() / largest;
+            worst = worst.max(off * f64::from(u8::from(largest <= 256.0)));
+            assert!(off <= 1.0001 / 255.0, "{}: displacement", what());
+        }
+    }
+    println!("displacements are 1/{:.1} of the largest component off at worst", 1.0 / worst);
 }
