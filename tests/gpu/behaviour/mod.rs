@@ -3,6 +3,7 @@
 mod change;
 mod far;
 mod flicker;
+mod gloss;
 mod leaving_out;
 mod lifecycle;
 mod motion;
