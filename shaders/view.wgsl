@@ -1,7 +1,7 @@
 // Shows one intermediate image: as numbers in a float target, as a picture in an rgba8unorm one.
 //
-// Each view is one block. It declares the images that it reads, `value`, which returns the numbers, and `picture`, which
-// turns these into colours.
+// Each block shows a view, or several of different images. It declares the images that it reads, `value`, which returns the numbers, and
+// `picture`, which turns these into colours.
 
 #import asvgf::frame::{frame, inside, project, sample_point, seen_position}
 #import asvgf::color::{is_finite, luminance}
@@ -308,9 +308,15 @@ fn picture(v: vec3<f32>) -> vec3<f32> {
 #import asvgf::history::filtered_color
 
 @group(0) @binding(1) var color: texture_2d<u32>;
+#ifdef GLOSS
+@group(0) @binding(12) var specular_color: texture_2d<u32>;
+#endif
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
-    let c = filtered_color(textureLoad(color, pixel, 0).xy);
+    var c = filtered_color(textureLoad(color, pixel, 0).xy);
+#ifdef GLOSS
+    c += filtered_color(textureLoad(specular_color, pixel, 0).xy);
+#endif
     let ok = is_finite(c.x) && is_finite(c.y) && is_finite(c.z);
     return vec3(select(1.0, 0.0, ok));
 }
@@ -409,6 +415,53 @@ fn value(pixel: vec2<i32>) -> vec3<f32> {
 
 fn picture(v: vec3<f32>) -> vec3<f32> {
     return developed(v);
+}
+#endif
+
+#ifdef VIEW_ROUGHNESS
+#import asvgf::gloss::unpack_gloss
+
+@group(0) @binding(8) var gloss: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let gloss = unpack_gloss(textureLoad(gloss, pixel, 0).x);
+    return vec3(select(1.0, gloss.roughness, gloss.exists));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return ramp(v.x);
+}
+#endif
+
+#ifdef VIEW_HIT_DISTANCE
+#import asvgf::gloss::unpack_gloss
+
+@group(0) @binding(8) var gloss: texture_2d<u32>;
+@group(0) @binding(7) var reflection: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let smoothed = unpack_motion(textureLoad(reflection, pixel, 0).xy).z;
+    return vec3(smoothed, unpack_gloss(textureLoad(gloss, pixel, 0).x).hit_distance, 0.0);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return vec3(v.x / (v.x + show.range));
+}
+#endif
+
+#ifdef VIEW_AGREEMENT
+#import asvgf::specular_history::{evidence_around, weight_of}
+
+@group(0) @binding(5) var guide: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let g = textureLoad(guide, pixel, 0).xy;
+    let weight = weight_of(evidence_around(pixel, unpack_normal(g.x)));
+    return vec3(select(0.0, weight, g.y != 0u));
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return ramp(v.x);
 }
 #endif
 

@@ -62,6 +62,34 @@ listed! {
         /// [`FilterSettings::outlier_limit`](crate::FilterSettings::outlier_limit); 0 elsewhere. Needs
         /// [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
         Outliers = "outliers",
+        /// Diffuse light as traced, without emission: linear radiance. It and the views below exist if specular light is a signal of
+        /// its own, see [`FilterSettings::gloss`](crate::FilterSettings::gloss). Picture: tone-mapped.
+        DiffuseNoisy = "diffuse-noisy",
+        /// Specular light as traced, in the same form.
+        SpecularNoisy = "specular-noisy",
+        /// Specular light after the filter, in the same form.
+        Specular = "specular",
+        /// The specular reflectance that specular light was divided by before filtering, 0.02…1; 0 where nothing shines.
+        SpecularAlbedo = "specular-albedo",
+        /// Perceptual roughness of the visible surface, 0…1, in steps of 1/254; 1 where nothing shines. The width of the GGX lobe is its
+        /// square.
+        Roughness = "roughness",
+        /// Distance from the surface to what it reflects, in the scene's unit: in red smoothed over the surface, in green as the pixel's
+        /// path found it. 0 where nothing shines, and in green also where the path found none. Picture: red, brighter is farther, grey at
+        /// [`ViewOptions::range`].
+        HitDistance = "hit-distance",
+        /// Previous − current position of the reflection in pixels in red and green, in steps of 1/256, and the smoothed distance of
+        /// [`View::HitDistance`] in blue; 0 where nothing shines. Picture: grey is no motion.
+        ReflectionMotion = "reflection-motion",
+        /// Weight of the history at the reflection's former place, 0…1, against that at the surface's, if both exist; 0 where nothing
+        /// shines. Needs [`DenoiserDescriptor::views`](crate::DenoiserDescriptor::views).
+        Agreement = "agreement",
+        /// [`View::HistoryLength`] of specular light; 0 where nothing shines.
+        SpecularHistoryLength = "specular-history-length",
+        /// Specular radiance that the gradient's paths reflect now, in the form of [`View::PairNow`].
+        SpecularPairNow = "specular-pair-now",
+        /// Specular radiance that the same paths reflected in the last frame.
+        SpecularPairBefore = "specular-pair-before",
     }
 }
 
@@ -69,9 +97,9 @@ impl View {
     /// A [`ViewOptions::range`] that suits most pictures of this view.
     pub fn default_range(self) -> f32 {
         match self {
-            Self::Motion => 8.0,
+            Self::Motion | Self::ReflectionMotion => 8.0,
             Self::MotionError => 2.0,
-            Self::HistoryLength => 64.0,
+            Self::HistoryLength | Self::SpecularHistoryLength => 64.0,
             Self::Rays => 16.0,
             _ => 4.0,
         }
@@ -83,7 +111,7 @@ impl View {
 pub struct ViewOptions {
     /// Factor on radiance before tone mapping, and on the variance's root.
     pub exposure: f32,
-    /// The depth that is shown grey, the motion in pixels that is shown in full colour, or the history length that is shown white.
+    /// The depth or distance that is shown grey, the motion in pixels that is shown in full colour, or the history length that is shown white.
     pub range: f32,
 }
 

@@ -15,7 +15,7 @@ pub struct Step {
     pub iteration: u32,
     /// Number of the dispatch among those that share a frame's paths, from 0.
     pub batch: u32,
-    /// The view that the step shows, if it shows one.
+    /// The view whose block of the shader the step runs, if it shows a view.
     pub view: Option<View>,
     /// The images behind the bindings.
     pub bindings: Vec<Bound>,

@@ -15,8 +15,12 @@ pub(crate) static PASS: Pass = Pass {
     traces: false,
 };
 
-/// A view, shown by the shader's block of the same name.
+/// A view, shown by a block of the shader.
 struct Row {
+    /// The view whose name the block has, if it is another one: it shows other images in the same way.
+    block: Option<View>,
+    /// True if features and images are those of the specular signal.
+    specular: bool,
     /// The conditions under which a frame has the view, each with the reason to give if it fails.
     needs: &'static [(Need, &'static str)],
     features: &'static [Known],
@@ -34,11 +38,12 @@ enum Need {
 }
 
 const FILTERED: (Need, &str) = (Need::Not(Unfiltered), "nothing is filtered in this mode");
+const SHINES: (Need, &str) = (Need::Any(&[Gloss]), "nothing shines, or all light is one signal");
 const HISTORY: (Need, &str) = (Need::Not(Unfiltered), "there is no history in this mode");
-const REPEATED: &[(Need, &str)] = &[
-    (Need::Not(Unchanged), "nothing changed, so that no path was repeated"),
-    (Need::Any(&[Reshade, Pairs]), "the gradient does not come from paths"),
-];
+const UNCHANGED: (Need, &str) = (Need::Not(Unchanged), "nothing changed, so that no path was repeated");
+const NO_PATHS: (Need, &str) = (Need::Any(&[Reshade, Pairs]), "the gradient does not come from paths");
+const REPEATED: &[(Need, &str)] = &[UNCHANGED, NO_PATHS];
+const GLOSS_REPEATED: &[(Need, &str)] = &[SHINES, UNCHANGED, NO_PATHS];
 
 const RADIANCE: Binding = now("radiance", Image::Radiance);
 const ALBEDO: Binding = now("albedo", Image::Albedo);
@@ -49,12 +54,38 @@ const GUIDE: Binding = now("guide", Image::Guide);
 const MOTION: Binding = now("motion", Image::Motion);
 const WEIGHTS: Binding = now("weights", Image::Weights);
 const SAMPLES: Binding = now("samples", Image::Samples);
+const GLOSS_IMAGE: Binding = now("gloss", Image::Gloss);
 const COLOR: Binding = chosen("color");
+const SPECULAR_COLOR: Binding = chosen("specular_color").of_specular();
 
 static TARGET: Binding = target("target_out");
 
 /// A view that every frame has.
-const PLAIN: Row = Row { needs: &[], features: &[], bindings: &[] };
+const PLAIN: Row = Row { block: None, specular: false, needs: &[], features: &[], bindings: &[] };
+
+/// A view of the specular signal.
+const GLOSS: Row = Row { specular: true, needs: &[SHINES], ..PLAIN };
+
+/// The light of one signal as traced: the other signal and emission are left out.
+const LIGHT: Row =
+    Row { block: Some(View::Noisy), features: &[knows(Albedo)], bindings: &[RADIANCE, ALBEDO.with(Albedo)], ..GLOSS };
+
+const PAIR_NOW: Row = Row {
+    needs: REPEATED,
+    features: &[knows(Albedo), knows(Pairs)],
+    bindings: &[SAMPLES, RADIANCE.unless(Pairs), now("radiance", Image::HostPairNow).with(Pairs), ALBEDO.with(Albedo)],
+    ..PLAIN
+};
+
+const PAIR_BEFORE: Row = Row {
+    bindings: &[
+        SAMPLES,
+        before("radiance", Image::Radiance).unless(Pairs),
+        now("radiance", Image::HostPairBefore).with(Pairs),
+        ALBEDO.with(Albedo),
+    ],
+    ..PAIR_NOW
+};
 
 const fn row(view: View) -> Row {
     match view {
@@ -73,13 +104,14 @@ const fn row(view: View) -> Row {
                     ],
                     bindings: &[
                         COLOR,
-                        chosen("specular_color").of_specular().with(Gloss),
+                        SPECULAR_COLOR.with(Gloss),
                         SPECULAR_ALBEDO.with(Gloss).with(Reflectance),
                         RADIANCE.with(Background),
                         GUIDE.with(Background),
                         ALBEDO.with(Albedo),
                         EMISSION.with(DirectEmission),
                     ],
+                    ..PLAIN
                 }
             }
         }
@@ -104,6 +136,7 @@ const fn row(view: View) -> Row {
                     needs: &[(Need::Any(&[Albedo]), "the host gave no albedo")],
                     features: &[knows(Albedo)],
                     bindings: &[ALBEDO],
+                    ..PLAIN
                 }
             }
         }
@@ -113,6 +146,7 @@ const fn row(view: View) -> Row {
                     needs: &[(Need::Any(&[DirectEmission]), "nothing emits, or the host gave no emission")],
                     features: &[knows(DirectEmission)],
                     bindings: &[EMISSION],
+                    ..PLAIN
                 }
             }
         }
@@ -146,6 +180,7 @@ const fn row(view: View) -> Row {
                     needs: &[(Need::Any(&[Gradient, Unchanged]), "the gradient is off")],
                     features: &[knows(Unchanged)],
                     bindings: &[chosen("gradient").unless(Unchanged)],
+                    ..PLAIN
                 }
             }
         }
@@ -166,36 +201,17 @@ const fn row(view: View) -> Row {
             const { Row { needs: &[HISTORY], bindings: &[now("history", Image::History)], ..PLAIN } }
         }
         View::NonFinite => {
-            const { Row { needs: &[FILTERED], features: &[knows(TemporalOnly), knows(Steady)], bindings: &[COLOR] } }
-        }
-        View::PairNow => {
             const {
                 Row {
-                    needs: REPEATED,
-                    features: &[knows(Albedo), knows(Pairs)],
-                    bindings: &[
-                        SAMPLES,
-                        RADIANCE.unless(Pairs),
-                        now("radiance", Image::HostPairNow).with(Pairs),
-                        ALBEDO.with(Albedo),
-                    ],
+                    needs: &[FILTERED],
+                    features: &[knows(TemporalOnly), knows(Steady), knows(Gloss)],
+                    bindings: &[COLOR, SPECULAR_COLOR.with(Gloss)],
+                    ..PLAIN
                 }
             }
         }
-        View::PairBefore => {
-            const {
-                Row {
-                    needs: REPEATED,
-                    features: &[knows(Albedo), knows(Pairs)],
-                    bindings: &[
-                        SAMPLES,
-                        before("radiance", Image::Radiance).unless(Pairs),
-                        now("radiance", Image::HostPairBefore).with(Pairs),
-                        ALBEDO.with(Albedo),
-                    ],
-                }
-            }
-        }
+        View::PairNow => PAIR_NOW,
+        View::PairBefore => PAIR_BEFORE,
         View::Mean => {
             const {
                 Row {
@@ -205,6 +221,75 @@ const fn row(view: View) -> Row {
                 }
             }
         }
+        View::DiffuseNoisy => const { Row { specular: false, ..LIGHT } },
+        View::SpecularNoisy => LIGHT,
+        View::Specular => {
+            const {
+                Row {
+                    block: Some(View::Denoised),
+                    needs: &[SHINES, FILTERED],
+                    features: &[knows(TemporalOnly), knows(Steady), knows(Albedo)],
+                    bindings: &[COLOR, ALBEDO.with(Albedo)],
+                    ..GLOSS
+                }
+            }
+        }
+        View::SpecularAlbedo => {
+            const {
+                Row {
+                    block: Some(View::Albedo),
+                    needs: &[SHINES, (Need::Any(&[Albedo]), "the host gave no specular reflectance")],
+                    features: &[knows(Albedo)],
+                    bindings: &[ALBEDO],
+                    ..GLOSS
+                }
+            }
+        }
+        View::Roughness => const { Row { needs: &[SHINES, FILTERED], bindings: &[GLOSS_IMAGE], ..GLOSS } },
+        View::HitDistance => {
+            const {
+                Row {
+                    needs: &[SHINES, FILTERED],
+                    bindings: &[GLOSS_IMAGE, now("reflection", Image::Reflection)],
+                    ..GLOSS
+                }
+            }
+        }
+        View::ReflectionMotion => {
+            const {
+                Row {
+                    block: Some(View::Motion),
+                    needs: &[SHINES, FILTERED],
+                    bindings: &[now("motion", Image::Reflection)],
+                    ..GLOSS
+                }
+            }
+        }
+        View::Agreement => {
+            const {
+                Row {
+                    needs: &[SHINES, HISTORY, (Need::Not(Still), "nothing changed, so that both places are one")],
+                    bindings: &[GUIDE, now("agreement", Image::Agreement)],
+                    ..GLOSS
+                }
+            }
+        }
+        View::SpecularHistoryLength => {
+            const {
+                Row {
+                    block: Some(View::HistoryLength),
+                    needs: &[SHINES, HISTORY],
+                    bindings: &[now("history", Image::History)],
+                    ..GLOSS
+                }
+            }
+        }
+        View::SpecularPairNow => {
+            const { Row { block: Some(View::PairNow), specular: true, needs: GLOSS_REPEATED, ..PAIR_NOW } }
+        }
+        View::SpecularPairBefore => {
+            const { Row { block: Some(View::PairBefore), specular: true, needs: GLOSS_REPEATED, ..PAIR_BEFORE } }
+        }
     }
 }
 
@@ -212,6 +297,8 @@ const fn row(view: View) -> Row {
 pub(crate) struct Shown {
     /// The features of its plan.
     pub features: Features,
+    /// The features of the specular signal, if it is a signal of its own.
+    pub specular: Option<Features>,
     /// True if the denoiser traced its rays.
     pub traced: bool,
     /// The image that holds the filtered colour.
@@ -229,10 +316,11 @@ pub(crate) fn step(
     holds: impl Fn(Image) -> bool,
 ) -> Result<Step, &'static str> {
     let row = row(view);
+    let signal = if row.specular { frame.specular.ok_or(SHINES.1)? } else { frame.features };
     for (need, reason) in row.needs {
         let met = match *need {
-            Need::Any(features) => frame.features.has_any(Features::of(features)),
-            Need::Not(feature) => !frame.features.has(feature),
+            Need::Any(features) => signal.has_any(Features::of(features)),
+            Need::Not(feature) => !signal.has(feature),
             Need::Traced => frame.traced,
         };
         if !met {
@@ -240,7 +328,7 @@ pub(crate) fn step(
         }
     }
     let targets = Features::of(&[TargetPicture, TargetF16]);
-    let features = frame.features.without(TargetPicture).without(TargetF16);
+    let features = signal.without(TargetPicture).without(TargetF16);
     let features = match format {
         TextureFormat::Rgba8Unorm => features.with(TargetPicture),
         TextureFormat::Rgba16Float => features.with(TargetF16),
@@ -254,10 +342,11 @@ pub(crate) fn step(
         .iter()
         .chain([&TARGET])
         .filter(|binding| binding.is_bound(features))
-        .map(|binding| binding.resolve(features, features, Nth::of(image)))
+        .map(|binding| binding.resolve(features, signal, Nth::of(image)))
         .collect();
     if bindings.iter().any(|bound| matches!(bound.slot, Slot::Now(image) if !holds(image))) {
         return Err("its image was not kept: set DenoiserDescriptor::views");
     }
-    Ok(Step { pass: &PASS, features, iteration: 0, batch: 0, view: Some(view), bindings })
+    let block = row.block.unwrap_or(view);
+    Ok(Step { pass: &PASS, features, iteration: 0, batch: 0, view: Some(block), bindings })
 }

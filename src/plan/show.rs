@@ -11,6 +11,7 @@ impl Plan {
     pub(crate) fn show(&self, view: View, target: TextureFormat, holds: impl Fn(Image) -> bool) -> Result<Step, Error> {
         let frame = Shown {
             features: self.features,
+            specular: self.specular,
             traced: self.steps.iter().any(|step| step.pass.traces),
             color: self.color,
             gradient: self.gradient,

@@ -249,7 +249,7 @@ fn any_gloss(random: &mut Random) -> u32 {
     let distance = [0, 1, 0xffff, 0xfbff, 0x8000, random.below(0x10000) as u32][random.below(6)];
     match random.below(4) {
         0 => 0,
-        _ => 1 + random.below(255) as u32 | distance << 8 | (random.below(256) as u32) << 24,
+        _ => (1 + random.below(255) as u32) | (distance << 8) | ((random.below(256) as u32) << 24),
     }
 }
 

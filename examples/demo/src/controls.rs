@@ -47,7 +47,11 @@ pub struct Facts<'a> {
 pub fn top(ui: &mut Ui, state: &mut State, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
         for source in Source::SHOWN {
-            ui.selectable_value(&mut state.left, source, source.name()).on_hover_text("A: adaptive or constant");
+            let help = match source {
+                Source::OneSignal => "adaptive α, with specular light in one signal with diffuse light",
+                _ => "A: adaptive or constant",
+            };
+            ui.selectable_value(&mut state.left, source, source.name()).on_hover_text(help);
         }
         ui.separator();
         ui.add(Slider::new(&mut state.alpha, 0.01..=1.0).logarithmic(true).text("constant α"))

@@ -250,6 +250,15 @@ mod tests {
     }
 
     #[test]
+    fn the_shining_scene_has_an_animation_of_what_mirrors_show() {
+        let mut stage = Stage::open("gloss").unwrap();
+        assert!(stage.animations().any(|name| name == "move-reflected") && stage.object_name.is_some());
+        let rest = stage.pose(&still(), 0.5);
+        let played = stage.pose(&Motion { playing: vec!["move-reflected".into()], ..still() }, 0.5);
+        assert_ne!(played.world, rest.world);
+    }
+
+    #[test]
     fn a_missing_file_is_named() {
         let error = Stage::open("no/such/room.glb").err().unwrap();
         assert!(error.contains("room.glb"), "{error}");

@@ -11,6 +11,8 @@ pub enum Source {
     Adaptive,
     /// The denoiser with a constant α.
     Constant,
+    /// The denoiser with an adaptive α and all light in one signal: specular light is not kept apart.
+    OneSignal,
     /// The traced samples, unfiltered.
     Noisy,
     /// The mean of all samples since the last change of anything.
@@ -21,13 +23,14 @@ pub enum Source {
 
 impl Source {
     /// The sources that can be shown.
-    pub const SHOWN: [Self; 4] = [Self::Adaptive, Self::Constant, Self::Noisy, Self::Reference];
+    pub const SHOWN: [Self; 5] = [Self::Adaptive, Self::Constant, Self::OneSignal, Self::Noisy, Self::Reference];
 
     /// The name in the window.
     pub fn name(self) -> &'static str {
         match self {
             Self::Adaptive => "adaptive α",
             Self::Constant => "constant α",
+            Self::OneSignal => "one signal",
             Self::Noisy => "1 spp",
             Self::Reference => "reference",
             Self::Witness => "second reference",
@@ -168,10 +171,12 @@ impl State {
     pub fn settings(&self, source: Source) -> Settings {
         let mut settings = self.settings.clone();
         match source {
-            Source::Adaptive if settings.filter.gradient == Gradient::Off => {
-                settings.filter.gradient = Gradient::Automatic;
+            Source::Adaptive | Source::OneSignal => {
+                if settings.filter.gradient == Gradient::Off {
+                    settings.filter.gradient = Gradient::Automatic;
+                }
+                settings.filter.gloss &= source == Source::Adaptive;
             }
-            Source::Adaptive => {}
             Source::Constant => settings = settings.constant(self.alpha),
             Source::Noisy => settings.mode = Mode::Noisy,
             Source::Reference | Source::Witness => {
@@ -266,5 +271,15 @@ mod tests {
         assert_eq!(state.settings(Source::Adaptive).filter.gradient, Gradient::Automatic);
         let constant = state.settings(Source::Constant).filter;
         assert_eq!((constant.gradient, constant.alpha), (Gradient::Off, 0.1));
+    }
+
+    #[test]
+    fn one_signal_differs_from_adaptive_by_nothing_else() {
+        let mut state = State::default();
+        state.settings.filter.gradient = Gradient::Off;
+        let [mut two, one] = [Source::Adaptive, Source::OneSignal].map(|source| state.settings(source));
+        assert!(two.filter.gloss && !one.filter.gloss);
+        two.filter.gloss = false;
+        assert_eq!(two, one);
     }
 }

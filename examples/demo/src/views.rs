@@ -40,8 +40,8 @@ pub fn legend(ui: &mut Ui, view: View, options: ViewOptions) {
 /// The number that is shown white, for views that go from black over a scale of colours to white.
 fn white_at(view: View, options: ViewOptions) -> Option<f32> {
     match view {
-        View::Gradient | View::Lambda | View::Alpha => Some(1.0),
-        View::HistoryLength | View::Rays => Some(options.range),
+        View::Gradient | View::Lambda | View::Alpha | View::Roughness | View::Agreement => Some(1.0),
+        View::HistoryLength | View::SpecularHistoryLength | View::Rays => Some(options.range),
         _ => None,
     }
 }
@@ -61,14 +61,26 @@ pub fn describe(view: View, sample: Sample) -> String {
     let value = match view {
         View::TriangleId | View::Object if b == 0.0 => "nothing was hit".into(),
         View::TriangleId | View::Object => format!("{}", r + 65536.0 * g),
-        View::PairNow | View::PairBefore if r < 0.0 => "no repeated path".into(),
+        View::PairNow | View::PairBefore | View::SpecularPairNow | View::SpecularPairBefore if r < 0.0 => {
+            "no repeated path".into()
+        }
         View::Depth if r == 0.0 => "nothing was hit".into(),
         View::Motion | View::MotionError => format!("{r:.2}, {g:.2} pixels; depth {b:.3}"),
-        View::HistoryLength => format!("{r:.1} frames"),
+        View::SpecularHistoryLength | View::ReflectionMotion | View::HitDistance if [r, g, b] == [0.0; 3] => {
+            "nothing shines".into()
+        }
+        View::ReflectionMotion => format!("{r:.2}, {g:.2} pixels; distance {b:.3}"),
+        View::HitDistance => format!("{r:.3}; of the pixel's own path {g:.3}"),
+        View::HistoryLength | View::SpecularHistoryLength => format!("{r:.1} frames"),
         View::Denoised | View::Noisy | View::Mean | View::Albedo | View::Normal | View::Emission => {
             format!("{r:.3}, {g:.3}, {b:.3}")
         }
-        View::PairNow | View::PairBefore => format!("{r:.3}, {g:.3}, {b:.3}"),
+        View::DiffuseNoisy | View::SpecularNoisy | View::Specular | View::SpecularAlbedo => {
+            format!("{r:.3}, {g:.3}, {b:.3}")
+        }
+        View::PairNow | View::PairBefore | View::SpecularPairNow | View::SpecularPairBefore => {
+            format!("{r:.3}, {g:.3}, {b:.3}")
+        }
         _ => format!("{r:.4}"),
     };
     format!("{} at {x}, {y}: {value}", title(view))
@@ -85,6 +97,8 @@ mod tests {
         assert_eq!(describe(View::TriangleId, sample([1.0, 2.0, 1.0])), "triangle id at 3, 4: 131073");
         assert_eq!(describe(View::TriangleId, sample([0.0; 3])), "triangle id at 3, 4: nothing was hit");
         assert_eq!(describe(View::PairNow, sample([-1.0; 3])), "pair now at 3, 4: no repeated path");
+        let distances = describe(View::HitDistance, sample([1.0, 2.0, 0.0]));
+        assert_eq!(distances, "hit distance at 3, 4: 1.000; of the pixel's own path 2.000");
     }
 
     #[test]

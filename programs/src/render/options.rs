@@ -67,7 +67,10 @@ Output
                         denoised, noisy, albedo, normal, depth, triangle-id, motion,
                         gradient, lambda, alpha, history-length, variance, non-finite,
                         rays, motion-error, emission, object, pair-now, pair-before,
-                        outliers
+                        outliers; of what shines: diffuse-noisy, specular-noisy, specular,
+                        specular-albedo, roughness, hit-distance, reflection-motion,
+                        agreement, specular-history-length, specular-pair-now,
+                        specular-pair-before
   --format LIST         png (tone-mapped), exr (numbers: linear radiance and the like
                         as 32-bit floats in R, G, B), or both as png,exr         [png]
   --exposure X          factor on radiance in PNG files                            [1]

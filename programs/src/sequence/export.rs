@@ -33,7 +33,7 @@ impl Export {
                 Err(Error::NoView { .. }) if self.layers.is_some() && layer.is_of_pairs() => {
                     vec![[-1.0; 3]; (width * height) as usize]
                 }
-                // Nothing emits, nothing moves by itself, or α does not adapt.
+                // Nothing emits, nothing shines, nothing moves by itself, or α does not adapt.
                 Err(Error::NoView { .. }) => continue,
                 Err(error) => return Err(error.into()),
             };
@@ -64,6 +64,15 @@ fn source(layer: Layer) -> Option<(View, Components)> {
         Layer::Id => (View::Object, |[low, high, _]| [low + 65536.0 * high; 3]),
         Layer::GradientCurrent => (View::PairNow, same),
         Layer::GradientPrevious => (View::PairBefore, same),
+        Layer::Diffuse => (View::DiffuseNoisy, same),
+        Layer::Specular => (View::SpecularNoisy, same),
+        Layer::SpecularAlbedo => (View::SpecularAlbedo, same),
+        Layer::Roughness => (View::Roughness, same),
+        // The denoiser of the sequence smooths the distances by itself.
+        Layer::HitDistance => (View::HitDistance, |[_, own, _]| [own; 3]),
+        Layer::SpecularMotion => (View::ReflectionMotion, same),
+        Layer::SpecularGradientCurrent => (View::SpecularPairNow, same),
+        Layer::SpecularGradientPrevious => (View::SpecularPairBefore, same),
         _ => return None,
     })
 }

@@ -1,5 +1,6 @@
 //! Impossible requests are refused by name, and cost no history.
 
+use crate::behaviour::views::OF_GLOSS;
 use crate::common::gpu::{Gpu, gpu};
 use crate::common::stage::Stage;
 use asvgf::{
@@ -158,19 +159,55 @@ fn a_view_of_what_was_not_made() {
     };
     let mut stage = Stage::built_in("cornell", "static", SIZE, Settings::adaptive());
     expect(&mut stage, View::ALL);
-    // Nothing moves or repeats, so objects are not told apart. Nothing changes, so no path is repeated. Nothing is summed.
-    expect(stage.frames(2), &[View::Object, View::PairNow, View::PairBefore, View::Mean]);
+    // Nothing moves or repeats, so objects are not told apart. Nothing changes, so no path is repeated. Nothing is summed. Nothing shines.
+    let lambertian = |missing: &[View]| [missing, &OF_GLOSS].concat();
+    expect(stage.frames(2), &lambertian(&[View::Object, View::PairNow, View::PairBefore, View::Mean]));
     let everything = Stage::built_in("cornell", "static", SIZE, Settings::adaptive()).leaving_nothing_out();
     expect({ everything }.frames(2), &[View::Object, View::Mean]);
     let off = FilterSettings { gradient: Gradient::Off, ..Default::default() };
     stage.denoiser.set_settings(Settings { filter: off, ..Settings::adaptive() }).unwrap();
     let gradient = [View::Object, View::Gradient, View::PairNow, View::PairBefore, View::Mean];
-    expect(stage.frame(), &gradient);
+    expect(stage.frame(), &lambertian(&gradient));
     let history = [View::Lambda, View::Alpha, View::Outliers, View::HistoryLength, View::Variance];
     let filtered = [View::Denoised, View::NonFinite];
     stage.denoiser.set_settings(Settings { mode: Mode::Noisy, ..Settings::adaptive() }).unwrap();
-    expect(stage.frame(), &[history.as_slice(), &filtered, &gradient].concat());
+    expect(stage.frame(), &lambertian(&[history.as_slice(), &filtered, &gradient].concat()));
     stage.denoiser.set_settings(Settings { mode: Mode::Reference, ..Settings::adaptive() }).unwrap();
     let summed = &gradient[..gradient.len() - 1];
-    expect(stage.frame(), &[history.as_slice(), &filtered, summed].concat());
+    expect(stage.frame(), &lambertian(&[history.as_slice(), &filtered, summed].concat()));
+}
+
+#[test]
+fn a_view_of_specular_light_says_what_is_missing() {
+    let target = gpu().target(SIZE, TextureFormat::Rgba32Float);
+    let expect = |stage: &mut Stage, missing: &[(View, &str)]| {
+        for view in OF_GLOSS {
+            let shown = gpu().submit(|e| stage.denoiser.show(&gpu().device, e, view, ViewOptions::default(), &target));
+            let expected = missing.iter().find(|(missing, _)| *missing == view);
+            match (shown, expected) {
+                (Ok(()), None) => {}
+                (Err(Error::NoView { reason, .. }), Some((_, words))) => {
+                    assert!(reason.contains(words), "{view:?}: {reason}");
+                }
+                (shown, _) => panic!("{view:?}: {shown:?}"),
+            }
+        }
+    };
+    let all_of = |words| OF_GLOSS.map(|view| (view, words));
+    let mut dull = Stage::built_in("cornell", "static", SIZE, Settings::adaptive());
+    expect(dull.frames(2), &all_of("nothing shines"));
+    let mut stage = Stage::built_in("gloss", "static", SIZE, Settings::adaptive());
+    let unchanged = "nothing changed";
+    expect(
+        stage.frames(2),
+        &[(View::Agreement, unchanged), (View::SpecularPairNow, unchanged), (View::SpecularPairBefore, unchanged)],
+    );
+    let one_signal = FilterSettings { gloss: false, ..Default::default() };
+    stage.denoiser.set_settings(Settings { filter: one_signal, ..Settings::adaptive() }).unwrap();
+    expect(stage.frame(), &all_of("one signal"));
+    let statistics = FilterSettings { gradient: Gradient::Statistics, ..Default::default() };
+    let settings = Settings { filter: statistics, ..Settings::adaptive() };
+    let mut stage = Stage::built_in("gloss", "all", SIZE, settings);
+    let no_paths = "does not come from paths";
+    expect(stage.frames(2), &[(View::SpecularPairNow, no_paths), (View::SpecularPairBefore, no_paths)]);
 }
