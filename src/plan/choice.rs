@@ -105,7 +105,7 @@ pub(super) fn traced_gloss(contents: &SceneContents, settings: &Settings, change
 /// True if the path tracer splits its light by the lobe of the first surface.
 #[cfg(feature = "path-tracer")]
 fn is_split(contents: &SceneContents, settings: &Settings) -> bool {
-    contents.specular && settings.filter.gloss && settings.mode == Mode::Denoise
+    contents.specular && !contents.matte && settings.filter.gloss && settings.mode == Mode::Denoise
 }
 
 /// The decisions on a frame of the host's renderer.

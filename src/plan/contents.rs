@@ -15,6 +15,8 @@ pub struct SceneContents {
     pub vertex_colors: bool,
     /// Some surface is not purely Lambertian.
     pub specular: bool,
+    /// No surface is glossy, although shaders could show one, see [`SceneContents::everything`]: light is one signal.
+    pub matte: bool,
     /// Some material has holes where its opacity is low, or no back faces.
     pub alpha_mask: bool,
     /// Some material is partly transparent, by its opacity.
@@ -44,6 +46,8 @@ impl SceneContents {
         Self {
             textures: true,
             specular: true,
+            // A second signal would change the picture of a scene in which nothing shines.
+            matte: self.matte || !self.specular,
             alpha_mask: true,
             alpha_blend: true,
             emitters: true,
