@@ -4,6 +4,7 @@ mod cleaning;
 mod copies;
 mod far;
 mod formats;
+mod gloss;
 mod levels;
 mod orthographic;
 mod pairless;

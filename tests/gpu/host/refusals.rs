@@ -4,7 +4,8 @@ use super::{SIZE, Uploaded, colors, denoiser, recorded, replay, reshading, targe
 use crate::common::gpu::gpu;
 use crate::common::stage::Stage;
 use asvgf::{
-    Denoiser, Error, FilterSettings, Gradient, Lambda, Matrices, Pairs, Settings, Shading, Surfaces, View, ViewOptions,
+    Denoiser, Error, FilterSettings, Gloss, Gradient, Lambda, Matrices, Pairs, Settings, Shading, Surfaces, View,
+    ViewOptions,
 };
 use wgpu::{TextureFormat, TextureUsages, TextureView};
 
@@ -112,6 +113,20 @@ fn every_view_is_checked_and_no_mistake_costs_history() {
             assert!(expected(&error) && error.to_string().contains(&format!("`{name}`")), "{name}: {error}");
         }
     }
+    for name in ["gloss.radiance", "gloss.reflectance", "gloss.roughness", "gloss.hit_distance", "gloss.motion"] {
+        for (view, expected) in wrong_views(name, good) {
+            let mut gloss = Gloss { radiance: Some(&host.light), ..Default::default() };
+            match name {
+                "gloss.radiance" => gloss.radiance = Some(&view),
+                "gloss.reflectance" => gloss.reflectance = Some(&view),
+                "gloss.roughness" => gloss.roughness = Some(&view),
+                "gloss.hit_distance" => gloss.hit_distance = Some(&view),
+                _ => gloss.motion = Some(&view),
+            }
+            let error = denoise(&mut tried, &Shading { gloss: Some(gloss), ..host.shading(&target) });
+            assert!(expected(&error) && error.to_string().contains(&format!("`{name}`")), "{name}: {error}");
+        }
+    }
     let error = denoise(&mut tried, &host.shading(&host.light));
     assert!(matches!(error, Error::ViewUsage { view: "target", .. }), "{error}");
     let error =
@@ -155,6 +170,15 @@ fn pairs_and_lambda_that_do_not_fit() {
     assert!(matches!(sizes, Error::ViewSize { view: "pairs.previous", expected: [16, 12], .. }), "{sizes}");
     let place = error(&strata, &strata, true);
     assert!(matches!(place, Error::ViewSize { view: "pairs.current", expected: SIZE, .. }), "{place}");
+    let mut error = |current, previous| {
+        let gloss = Gloss { radiance: Some(&color), pairs: Some(Pairs::new(current, previous)), ..Default::default() };
+        let shading = Shading { pairs: Some(Pairs::new(&color, &color)), gloss: Some(gloss), ..host.shading(&target) };
+        denoise(&mut denoiser, &shading)
+    };
+    let mixed = error(&color, &luminance);
+    assert!(matches!(mixed, Error::ViewFormat { view: "gloss.pairs.previous", .. }), "{mixed}");
+    let sizes = error(&strata, &color);
+    assert!(matches!(sizes, Error::ViewSize { view: "gloss.pairs.previous", expected: [16, 12], .. }), "{sizes}");
 
     denoiser.set_settings(with(Gradient::Lambda)).unwrap();
     gpu().submit(|e| denoiser.begin_frame(&gpu().device, e, &host.surfaces())).unwrap();
