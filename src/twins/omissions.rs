@@ -16,6 +16,7 @@ const ALL: SceneContents = SceneContents {
     shading_normals: true,
     vertex_colors: true,
     specular: true,
+    matte: false,
     alpha_mask: true,
     alpha_blend: true,
     emitters: true,
