@@ -189,14 +189,25 @@ const FEWEST: f32 = 6.0;
 // Cosine of normals of one surface here: acos 0.8 is 37°.
 const ONE_SURFACE: f32 = 0.8;
 
-// Factor that brings a pixel's luminance down to `gloss_clamp` times the third largest of the 24 around on its surface, about their
-// 90th percentile. Failure: a highlight that one path had met glowed on for a dozen frames, as wide as the filter. Reason: the mean of a
-// few samples is as far off as its largest one, and its neighbours know no better. Rule: the filter takes in what is usual around;
-// the history keeps all of the light, and shows it once it is sure.
+// Largest factor by which a pixel gives back the light that the clamp takes from its neighbourhood.
+const MOST_GIVEN_BACK: f32 = 1.5;
+
+// Factor on a pixel's colour: it brings the luminance down to `gloss_clamp` times the third largest of the 24 around on its surface, about
+// their 90th percentile, and gives the light that exceeds this bound back to the whole window:
+//
+//   min(1, b/l)·min(1.5, Σl/Σmin(l, b)),  b = gloss_clamp·third
+//
+// Failure: a highlight that one path had met glowed on for a dozen frames, as wide as the filter. Reason: the mean of a few samples is as
+// far off as its largest one, and its neighbours know no better. Rule: the filter takes in what is usual around; the history keeps all of
+// the light, and shows it once it is sure.
+//
+// Failure: the picture was 3 % too dark. Reason: the bound takes more from the light than it takes from its mean's error. Rule: neighbours
+// share the excess, up to half of what they have; at most the first, the second and the pixel itself exceed the bound.
 fn clamped(pixel: vec2<i32>, normal: vec3<f32>, center: f32, seen: bool) -> f32 {
     var first = 0.0;
     var second = 0.0;
     var third = 0.0;
+    var sum = center;
     var count = 0.0;
     let taps = select(0, CLAMP_TAPS, seen && center > 0.0);
     for (var i = 0; i < taps; i++) {
@@ -211,9 +222,13 @@ fn clamped(pixel: vec2<i32>, normal: vec3<f32>, center: f32, seen: bool) -> f32 
         third = max(third, min(second, l));
         second = max(second, min(first, l));
         first = max(first, l);
+        sum += l;
         count += select(0.0, 1.0, there);
     }
-    return select(1.0, min(1.0, frame.gloss_clamp * third / max(center, 1e-37)), count >= FEWEST);
+    let bound = frame.gloss_clamp * third;
+    let excess = max(first - bound, 0.0) + max(second - bound, 0.0) + max(center - bound, 0.0);
+    let given_back = clamp(1.0 + excess / max(sum - excess, 1e-37), 1.0, MOST_GIVEN_BACK);
+    return select(1.0, given_back * min(1.0, bound / max(center, 1e-37)), count >= FEWEST);
 }
 #endif
 

@@ -137,9 +137,10 @@ settings! {
         gloss_sigma_luminance: f32 { default: 2.5, classic: 4.0, range: 0..=1e6, useful: 0..=32 }
 
         /// Greatest luminance of accumulated specular light that the spatial filter takes in, as a multiple of the third largest of the
-        /// 24 pixels around. Its history keeps what is above. Higher: less of a lone highlight's light is lost, but spots stay where
-        /// noise is strong. Lower: smoother, but darker. 0 takes in everything, which saves 24 taps. Changing it from or to 0 compiles.
-        gloss_clamp: f32 { default: 3.0, classic: 0.0, range: 0..=1e6, useful: 0..=16, compiles: Sometimes }
+        /// 24 pixels around. The history keeps the light above, and the pixels around get up to half of their own light from it. Higher:
+        /// less of a lone highlight's light is lost, but spots stay where noise is strong. Lower: smoother, but darker. 0 takes in
+        /// everything, which saves 24 taps. Changing it from or to 0 compiles.
+        gloss_clamp: f32 { default: 2.0, classic: 0.0, range: 0..=1e6, useful: 0..=16, compiles: Sometimes }
 
         /// Speed with which reflections that slide over a surface shorten the history, where one radiance holds diffuse and specular
         /// light: 1/n grows by this times the specular part, the square of the smoothness, and the pixels that reflections move.

@@ -78,7 +78,7 @@ fn filtering_both_signals_keeps_the_energy() {
     let cases = [
         ("without limits", Settings { filter: plain, ..Settings::adaptive() }, 0.005),
         // The limit of outliers and the clamp take light from what few paths have met.
-        ("by default", with_gloss(true, Gradient::Off), 0.015),
+        ("by default", with_gloss(true, Gradient::Off), 0.01),
     ];
     for (name, settings, allowed) in cases {
         let bias = of(settings) / noisy - 1.0;
