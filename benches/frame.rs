@@ -5,7 +5,7 @@
 //! Compare only figures of one run.
 
 use asvgf::scene::{GpuScene, builtin};
-use asvgf::{Settings, View};
+use asvgf::{FilterSettings, Settings, View};
 use asvgf_programs::film::Film;
 use asvgf_programs::gpu::Gpu;
 use asvgf_programs::times::{Clock, median};
@@ -38,14 +38,16 @@ fn main() {
         }
     }
     // The lamp moves, because the denoiser skips most of the filter if nothing changes.
-    for (name, animation, settings) in [
-        ("adaptive", "move-light", Settings::adaptive()),
-        ("constant 0.1", "move-light", Settings::adaptive().constant(0.1)),
-        ("classic", "move-light", Settings::classic()),
-        ("adaptive, still", "static", Settings::adaptive()),
+    for (name, scene, animation, settings) in [
+        ("adaptive", "cornell", "move-light", Settings::adaptive()),
+        ("constant 0.1", "cornell", "move-light", Settings::adaptive().constant(0.1)),
+        ("classic", "cornell", "move-light", Settings::classic()),
+        ("adaptive, still", "cornell", "static", Settings::adaptive()),
+        ("two signals", "gloss", "all", Settings::adaptive()),
+        ("one signal", "gloss", "all", one_signal()),
     ] {
         if runs(&format!("filter {name}")) {
-            filter(&gpu, (name, animation), settings, frames);
+            filter(&gpu, name, (scene, animation), settings, frames);
         }
     }
 }
@@ -63,10 +65,16 @@ fn trace(gpu: &Gpu, scene: &str, animation: &str, size: [u32; 2], frames: u32) {
     );
 }
 
+/// Settings without a signal for specular light.
+fn one_signal() -> Settings {
+    let adaptive = Settings::adaptive();
+    Settings { filter: FilterSettings { gloss: false, ..adaptive.filter }, ..adaptive }
+}
+
 /// Measures the milliseconds of all passes except tracing.
-fn filter(gpu: &Gpu, (name, animation): (&str, &str), settings: Settings, frames: u32) {
+fn filter(gpu: &Gpu, name: &str, (scene, animation): (&str, &str), settings: Settings, frames: u32) {
     let size = [1280, 720];
-    let (times, _) = measure(gpu, "cornell", animation, size, settings, frames);
+    let (times, _) = measure(gpu, scene, animation, size, settings, frames);
     let passes: Vec<_> = times.iter().filter(|(n, _)| !["visibility", "trace"].contains(n)).collect();
     let total: f64 = passes.iter().map(|(_, ms)| *ms).sum();
     println!("filter {name}, {}×{}: {total:.1} ms", size[0], size[1]);
