@@ -4,6 +4,7 @@ mod change;
 mod far;
 mod flicker;
 mod gloss;
+mod gloss_elsewhere;
 mod leaving_out;
 mod lifecycle;
 mod motion;

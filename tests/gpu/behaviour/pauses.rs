@@ -15,7 +15,11 @@ fn settings() -> [Settings; 4] {
 
 /// A stage in the middle of an animation in which everything moves.
 fn moving(settings: Settings) -> Stage {
-    let mut stage = Stage::built_in("cornell", "all", SIZE, settings);
+    moving_in("cornell", settings)
+}
+
+fn moving_in(scene: &str, settings: Settings) -> Stage {
+    let mut stage = Stage::built_in(scene, "all", SIZE, settings);
     stage.index = 20;
     stage.frames(4);
     stage
@@ -37,25 +41,69 @@ fn update(stage: &mut Stage, poses: &[&Pose]) {
     gpu.submit(|encoder| poses.iter().for_each(|pose| stage.uploaded.update(&gpu.device, encoder, pose).unwrap()));
 }
 
+fn assert_still_in_pauses(scene: &str, settings: Settings) {
+    let what = |frame: u32| format!("{scene}, {:?}, frame {frame}", settings.filter.gradient);
+    let [mut left, mut updated, mut shaken] = [0; 3].map(|_| moving_in(scene, settings.clone()));
+    let (pose, other) = (left.pose_at(23), left.pose_at(50));
+    for frame in 0..6 {
+        update(&mut updated, &[&pose]);
+        update(&mut shaken, &[&other, &pose]);
+        let image = render(&mut left, &pose);
+        assert!(image == render(&mut updated, &pose), "{}: updated", what(frame));
+        assert!(image == render(&mut shaken, &pose), "{}: elsewhere in between", what(frame));
+        let mut motions = vec![View::Motion];
+        motions.extend(left.denoiser.plan().unwrap().specular.is_some().then_some(View::ReflectionMotion));
+        for view in motions {
+            assert!(left.view(view).iter().all(|m| m[0] == 0.0 && m[1] == 0.0), "{}: {view:?}", what(frame));
+        }
+        assert_eq!(left.largest(View::Lambda), 0.0, "{}", what(frame));
+        assert_eq!(left.denoiser.plan().unwrap().features, updated.denoiser.plan().unwrap().features);
+    }
+    assert!(left.denoiser.plan().unwrap().features.has(asvgf::plan::Feature::Still), "{}", what(5));
+}
+
 #[test]
 fn a_paused_scene_stands_still_whether_it_is_updated_or_not() {
-    for settings in settings() {
-        let gradient = settings.filter.gradient;
-        let (mut left, mut updated, mut shaken) =
-            (moving(settings.clone()), moving(settings.clone()), moving(settings));
-        let (pose, other) = (left.pose_at(23), left.pose_at(50));
-        for frame in 0..6 {
-            update(&mut updated, &[&pose]);
-            update(&mut shaken, &[&other, &pose]);
-            let image = render(&mut left, &pose);
-            assert!(image == render(&mut updated, &pose), "{gradient:?}, frame {frame}: updated");
-            assert!(image == render(&mut shaken, &pose), "{gradient:?}, frame {frame}: elsewhere in between");
-            assert!(left.view(View::Motion).iter().all(|m| m[0] == 0.0 && m[1] == 0.0), "{gradient:?}, frame {frame}");
-            assert_eq!(left.largest(View::Lambda), 0.0, "{gradient:?}, frame {frame}");
-            assert_eq!(left.denoiser.plan().unwrap().features, updated.denoiser.plan().unwrap().features);
+    settings().into_iter().for_each(|settings| assert_still_in_pauses("cornell", settings));
+}
+
+#[test]
+fn reflections_stand_still_in_a_paused_scene() {
+    let [reshade, analytic, _, off] = settings();
+    [reshade, analytic, off].into_iter().for_each(|settings| assert_still_in_pauses("gloss", settings));
+}
+
+/// Share of the pixels with gloss whose specular history is at least this long.
+fn share_of_histories(stage: &mut Stage, length: f32) -> f64 {
+    let lengths = stage.view(View::SpecularHistoryLength);
+    let shines: Vec<f32> = lengths.iter().map(|l| l[0]).filter(|&l| l > 0.0).collect();
+    shines.iter().filter(|&&l| l >= length).count() as f64 / shines.len() as f64
+}
+
+/// A pause adds samples to the reflections' histories, and costs none of what was there when the scene goes on.
+#[test]
+fn reflections_have_their_histories_after_a_pause() {
+    let animation = |stage: &mut Stage, poses: std::ops::Range<u32>| {
+        for pose in poses {
+            let pose = stage.pose_at(pose);
+            stage.frame_in(&pose);
         }
-        assert!(left.denoiser.plan().unwrap().features.has(asvgf::plan::Feature::Still), "{gradient:?}");
+    };
+    let [mut paused, mut moving] = [0; 2].map(|_| Stage::built_in("gloss", "move-camera", SIZE, Settings::adaptive()));
+    for stage in [&mut paused, &mut moving] {
+        animation(stage, 20..28);
     }
+    for _ in 0..4 {
+        animation(&mut paused, 27..28);
+    }
+    let [before, after] = [28..28, 28..29].map(|poses| {
+        for stage in [&mut paused, &mut moving] {
+            animation(stage, poses.clone());
+        }
+        [share_of_histories(&mut paused, 9.0), share_of_histories(&mut moving, 5.0)]
+    });
+    println!("long histories, paused and moving: {before:.3?} before the next motion, {after:.3?} after it");
+    assert!(after[0] >= after[1] - 0.02, "{after:?}");
 }
 
 #[test]

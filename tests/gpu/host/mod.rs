@@ -5,6 +5,7 @@ mod copies;
 mod far;
 mod formats;
 mod gloss;
+mod gloss_elsewhere;
 mod levels;
 mod orthographic;
 mod pairless;
