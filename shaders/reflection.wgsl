@@ -1,15 +1,18 @@
 // Finds where the reflection in each glossy pixel was in the last frame. A reflection does not move with the surface that shows it: it
 // moves as if it lay behind the surface.
 //
-//   h′ = h / max(0.2, 1 + 2·κ·h/cos θ)        distance of the image behind the surface, for a mirror of curvature κ (convex: κ > 0)
+//   h′ = h / (1 + 2·κ·h/cos θ)                distance of the image behind the surface, for a mirror of curvature κ (convex: κ > 0)
 //   V = X + h′·d                              the image, seen in direction d through the surface point X
 //
 // with the distance h from X to what is reflected. (The formula of a thin mirror, 1/h′ = 1/h + 2·κ/cos θ; κ = Σ Δn·Δp/Σ Δp·Δp over
-// neighbours.) For the displacements Δ_X of the surface and Δ_P of what is reflected since the last frame, the image was at
+// neighbours.) A concave mirror may show a real image, before itself: h′ < 0.
 //
-//   V + Δ_X + (h′/h)·(I − 2·n·nᵀ)·(Δ_P − Δ_X)
+// In the last frame, the surface point was at X′ = X + Δ_X, its normal was n′, and the reflected point was at
+// P′ = X + h·(d − 2·(d·n)·n) + Δ_P. The image was at
 //
-// which is projected with the last frame's camera.
+//   V′ = X′ + (h′/h)·(I − 2·n′·n′ᵀ)·(P′ − X′)
+//
+// which is projected with the last frame's camera. (Where nothing has moved, V′ = V.)
 //
 // On a curved mirror the place is refined in the last frame's G-buffer: the pixel q is sought at which the normal n is the half vector
 // between the reflected point P and the last camera o′, by Gauss–Newton steps on
@@ -135,8 +138,8 @@ fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, exists: bool) -> Arou
 }
 
 #ifndef STILL
-// Least denominator of the thin mirror's formula: a concave mirror may show its image at infinity, or before itself.
-const LEAST_FACTOR: f32 = 0.2;
+// Least absolute denominator of the thin mirror's formula: a concave mirror may show its image at infinity.
+const LEAST_FACTOR: f32 = 0.02;
 
 // Least cosine at which the formula is used.
 const LEAST_COSINE: f32 = 0.1;
@@ -152,6 +155,12 @@ const CURVED: f32 = 1e-3;
 const STEPS: i32 = 3;
 const LONGEST_STEP: f32 = 2.0;
 
+// Displacement from which on a surface has moved, in parts of the depth: twice the rounding of a former depth.
+const MOVED: f32 = 1e-4;
+
+// Difference of normals from which on a surface has turned: two normals of 10 bits differ by as much from rounding alone.
+const TURNED: f32 = 0.0035;
+
 // The surface's own motion, packed.
 fn surface_motion(pixel: vec2<i32>, depth: f32) -> vec2<u32> {
 #ifdef HOST_MOTION
@@ -161,15 +170,19 @@ fn surface_motion(pixel: vec2<i32>, depth: f32) -> vec2<u32> {
 #endif
 }
 
+fn object_before(pixel: vec2<i32>) -> u32 {
+#ifdef OBJECTS
+    return textureLoad(object_previous, pixel, 0).x;
+#else
+    return 0u;
+#endif
+}
+
 // r(q) at a pixel of the last frame, and 1 in w if the mirror is there.
 fn residual(tap: vec2<i32>, reflected: vec3<f32>, own: u32) -> vec4<f32> {
     let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
     let g = textureLoad(guide_previous, clamped, 0).xy;
-#ifdef OBJECTS
-    let there = textureLoad(object_previous, clamped, 0).x;
-#else
-    let there = 0u;
-#endif
+    let there = object_before(clamped);
     let c = frame.previous;
     let place = seen_position(c, sample_point(c, vec2<f32>(clamped)), bitcast<f32>(g.y));
     let to_eye = select(c.offset - place, -c.forward, is_orthographic(c));
@@ -207,6 +220,25 @@ fn search(start: vec2<f32>, reflected: vec3<f32>, own: u32, steps: i32) -> vec2<
     return q;
 }
 
+// The normal that a surface had at its former place, in pixels of the last frame: the mean of the four around, if the surface has moved.
+fn former_normal(place: vec2<f32>, normal: vec3<f32>, own: u32, has_moved: bool) -> vec3<f32> {
+    let base = vec2<i32>(floor(place));
+    let f = place - vec2<f32>(base);
+    var sum = vec3(0.0);
+    let taps = select(0, 4, has_moved);
+    for (var i = 0; i < taps; i++) {
+        let offset = vec2(i & 1, i >> 1u);
+        let tap = clamp(base + offset, vec2(0), vec2<i32>(frame.size) - 1);
+        let g = textureLoad(guide_previous, tap, 0).xy;
+        let n = unpack_normal(g.x);
+        let same = inside(base + offset) && g.y != 0u && object_before(tap) == own && dot(n, normal) >= SAME_SURFACE;
+        let w = mix(vec2(1.0) - f, f, vec2<f32>(offset));
+        sum += select(0.0, w.x * w.y, same) * n;
+    }
+    let mean = normalize(select(normal, sum, dot(sum, sum) > 0.0));
+    return select(normal, mean, distance(mean, normal) > TURNED);
+}
+
 // The motion of the reflection, in pixels.
 fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: Around, moved: vec3<f32>) -> vec2<f32> {
     let point = sample_point(frame.camera, vec2<f32>(pixel));
@@ -214,37 +246,42 @@ fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: A
     let d = normalize(ray_direction(frame.camera, point));
     let cosine = abs(dot(d, normal));
     let h = near.hit_distance;
-    let factor = max(1.0 + 2.0 * near.curvature * h / max(cosine, LEAST_COSINE), LEAST_FACTOR);
-    let image = here + d * (h / factor);
-    let displaced = seen_position(frame.previous, point + moved.xy, moved.z) - here;
-    // Failure: the reflection in a mirror that slid along itself was sought where the mirror had been, although it rests. Reason: the
-    // image of a point at rest does not move with the mirror; seen from the mirror, the point moves the other way. Rule: the image moves
-    // with the mirror, and by the mirrored motion of what is reflected against the mirror, as much smaller as the mirror shows it.
+    let nominal = 1.0 + 2.0 * near.curvature * h / max(cosine, LEAST_COSINE);
+    let factor = select(max(nominal, LEAST_FACTOR), min(nominal, -LEAST_FACTOR), nominal < 0.0);
+    let was = seen_position(frame.previous, point + moved.xy, moved.z);
+    // Failure: reflections on curved mirrors were off by the change of the jitter. Reason: a motion counts without either frame's jitter,
+    // but the last frame's G-buffer was sampled with its own. Rule: places in that G-buffer are off by the difference.
+    let jitter = vec2(frame.previous.jitter_x - frame.camera.jitter_x, frame.previous.jitter_y - frame.camera.jitter_y);
+    let object = object_at(pixel);
+    let has_moved = distance(was, here) > MOVED * scale_at(frame.camera, depth);
+    let turned = former_normal(vec2<f32>(pixel) + moved.xy - jitter, normal, object, has_moved);
 #ifdef INSTANCED
     let own = unpack_displacement(textureLoad(specular_radiance, pixel, 0).w);
 #else
     let own = vec3(0.0);
 #endif
-    let against = own - displaced;
-    let mirrored = (against - 2.0 * dot(against, normal) * normal) / factor;
-    let now = project(frame.camera, image);
-    let before = project(frame.previous, image + displaced + mirrored);
-    var shift = before.xy - now.xy;
-    let is_curved = abs(near.curvature) * h > CURVED;
+    // Failure: the reflection in a mirror that slid along itself was sought where the mirror had been, although it rests, and one in a
+    // mirror that turned was sought at half its way. Reason: an image does not move with the mirror. Rule: the reflected point is mirrored
+    // anew, by the mirror of the last frame.
     let reflected = here + h * (d - 2.0 * dot(d, normal) * normal) + own;
-    let steps = select(0, STEPS, before.z > 0.0 && is_curved && distance(shift, moved.xy) > WORTH_A_SEARCH);
-    // Failure: reflections on curved mirrors were off by the change of the jitter. Reason: a motion counts without either frame's jitter,
-    // but the last frame's G-buffer was sampled with its own. Rule: the search starts and ends with the difference.
-    let jitter = vec2(frame.previous.jitter_x - frame.camera.jitter_x, frame.previous.jitter_y - frame.camera.jitter_y);
+    let seen = reflected - was;
+    let image = was + (seen - 2.0 * dot(seen, turned) * turned) / factor;
+    let before = project(frame.previous, image);
+    // The image may lie behind the eye, on the other side of the same line.
+    let side = select(1.0, dot(here + d * (h / factor), frame.camera.forward), !is_orthographic(frame.camera));
+    let visible = before.z * side > 0.0 || is_orthographic(frame.camera);
+    var shift = before.xy - point;
+    let is_curved = abs(near.curvature) * h > CURVED;
+    let steps = select(0, STEPS, visible && is_curved && distance(shift, moved.xy) > WORTH_A_SEARCH);
     let start = vec2<f32>(pixel) + shift - jitter;
-    shift += search(start, reflected, object_at(pixel), steps) - start;
+    shift += search(start, reflected, object, steps) - start;
 #ifdef REFLECTION_MOTION
     let given = textureLoad(reflection_motion, pixel, 0).xy;
     shift = select(shift, given, is_finite(given.x) && is_finite(given.y));
 #endif
     // Beside a still surface's own motion, rounding counts for nothing.
     let apart = distance(shift, moved.xy);
-    return select(shift, moved.xy, !(before.z > 0.0) || !(apart > AS_GOOD_AS_ONE));
+    return select(shift, moved.xy, !visible || !(apart > AS_GOOD_AS_ONE));
 }
 #endif
 
@@ -256,7 +293,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let own = specular_guide(g, bits);
     let exists = own.y != 0u && inside(pixel);
     let depth = bitcast<f32>(g.y);
-    let normal = unpack_normal(g.x);
+    let normal = normalize(unpack_normal(g.x));
     let near = around(pixel, depth, normal, exists);
 #ifdef STILL
     let shift = vec2(0.0);

@@ -1,12 +1,13 @@
 //! Runs one pass on images that a test invents.
 
 use super::gpu::gpu;
+use super::plane::{V, cross, sub, unit};
 use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::frame::{FrameUniform, Moment};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::resource::Resource;
 use crate::passes::{Bound, Feature, Grid, HostView, Slot, Step, Traversal};
-use crate::{Camera, Settings, Viewpoint};
+use crate::{Camera, Matrices, Settings, Viewpoint};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
@@ -28,13 +29,15 @@ pub(super) struct Bench {
     pub continued: bool,
     pub settings: Settings,
     pub lambda_block: u32,
+    /// Half the height of what the cameras show, if they are orthographic.
+    pub half_height: Option<f64>,
 }
 
 impl Bench {
     pub fn new(size: [u32; 2], settings: Settings) -> Self {
         let camera =
             Camera { eye: [0.2, 0.3, 4.0], target: [0.1, 0.0, 0.0], jitter: [0.2, -0.3], ..Default::default() };
-        Self { size, camera, previous: camera, index: 5, continued: true, settings, lambda_block: 1 }
+        Self { size, camera, previous: camera, index: 5, continued: true, settings, lambda_block: 1, half_height: None }
     }
 
     /// Runs a step on the images of its bindings; an image that is not given is zero. Returns the images that the step wrote, and
@@ -79,7 +82,7 @@ impl Bench {
     }
 
     fn uniform(&self) -> FrameUniform {
-        let camera = |c: &Camera| Viewpoint::from(*c).placed(self.size).unwrap_or_else(|e| panic!("{e}"));
+        let camera = |c: &Camera| self.viewpoint(c).placed(self.size).unwrap_or_else(|e| panic!("{e}"));
         let moment = Moment {
             camera: camera(&self.camera),
             previous: camera(&self.previous),
@@ -90,6 +93,17 @@ impl Bench {
             converges: false,
         };
         FrameUniform::new(self.size, &moment, &self.settings)
+    }
+
+    fn viewpoint(&self, c: &Camera) -> Viewpoint {
+        let Some(half) = self.half_height else { return (*c).into() };
+        let [right, up, back] = axes(c);
+        let column = |i: usize| [right[i], up[i], back[i], 0.0].map(|x| x as f32);
+        let view = [column(0), column(1), column(2), [0.0, 0.0, 0.0, 1.0]];
+        let aspect = f64::from(self.size[0]) / f64::from(self.size[1]);
+        let [x, y] = [1.0 / (half * aspect), 1.0 / half].map(|s| s as f32);
+        let projection = [[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, -0.01, 0.0], [0.0, 0.0, 0.0, 1.0]];
+        Viewpoint::Relative { matrices: Matrices { view, projection, jitter: c.jitter }, origin: c.eye }
     }
 
     fn texture(&self, step: &Step, bound: &Bound) -> Texture {
@@ -124,6 +138,13 @@ impl Bench {
             | TextureUsages::COPY_DST;
         gpu().texture([width, height], format, usage)
     }
+}
+
+/// Directions of the image's right side, of its upper side, and against the view.
+pub(super) fn axes(camera: &Camera) -> [V; 3] {
+    let forward = unit(sub(camera.target, camera.eye));
+    let right = unit(cross(forward, camera.up.map(f64::from)));
+    [right, cross(right, forward), forward.map(|x| -x)]
 }
 
 /// Compiles each kernel once for all tests.

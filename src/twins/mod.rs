@@ -30,6 +30,7 @@ mod ingest_pairs;
 mod ingest_radiance;
 mod ingest_surface;
 mod last_frame;
+mod mirrors;
 mod outliers;
 mod packing;
 mod properties;

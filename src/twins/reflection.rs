@@ -16,7 +16,7 @@ enum Mirror {
 }
 
 /// The direction in which a direction leaves a mirror of this normal.
-fn reflected(d: V, normal: V) -> V {
+pub(super) fn reflected(d: V, normal: V) -> V {
     sub(d, scale(normal, 2.0 * dot(d, normal)))
 }
 
@@ -84,17 +84,17 @@ struct Case {
 }
 
 /// Code of a roughness: 1…255 for 0…1.
-fn gloss(roughness: f64, hit_distance: f64) -> u32 {
+pub(super) fn gloss(roughness: f64, hit_distance: f64) -> u32 {
     (1.0 + (roughness * 254.0).round()) as u32 | pack_unsigned(hit_distance) << 8 | 255 << 24
 }
 
 /// The displacement's code, for displacements that it holds exactly: multiples of 1/255.
-fn displacement_code(d: V) -> u32 {
+pub(super) fn displacement_code(d: V) -> u32 {
     let q = d.map(|x| (x * 255.0).round() as i32 as u32 & 0x1ff);
     if d == [0.0; 3] { 0 } else { q[0] | q[1] << 9 | q[2] << 18 | 23 << 27 }
 }
 
-fn packed(words: [u32; 2]) -> Texel {
+pub(super) fn packed(words: [u32; 2]) -> Texel {
     [words[0], words[1], 0, 0]
 }
 
