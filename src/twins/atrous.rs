@@ -1,7 +1,10 @@
 //! One spatial iteration: l̂(p) = Σ h·w·l(q) / Σ h·w.
 
 use super::bench::{Bench, SIZES, Texel};
-use super::codec::{assert_close, depth, luminance, pack_tap, radiance, unpack_normal, unpack_rgb, unpack_tap};
+use super::codec::{
+    assert_close, depth, luminance, pack_motion, pack_tap, radiance, unpack_motion, unpack_normal, unpack_rgb,
+    unpack_tap,
+};
 use super::plane::{V, add, dot, scale, sub};
 use super::random::Random;
 use super::strata::falloff;
@@ -12,7 +15,30 @@ use crate::{FilterSettings, Settings, Stops};
 /// Filters a pixel by the documented formulas: colour, standard deviation, and the plain mean; the pixel's own values if it has
 /// converged. `image` has colour and deviation in the first half of its texels, normal and depth in the second.
 pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[Texel], x: i32, y: i32) -> (V, f64, V) {
+    glossy_twin(bench, features, iteration, image, &[], [x, y])
+}
+
+/// The exponent that only specular light has, for a tap this many pixels away: unlike roughnesses, and beyond twice the width of the lobe,
+/// f·α·h/(z + h) = α/|du|·h/(z + h).
+fn gloss_stop(bench: &Bench, [own, other]: [[u32; 2]; 2], reflected: f64, pixels: f64) -> f64 {
+    let roughness = |guide: [u32; 2]| f64::from((guide[1] & 255) - 1) / 254.0;
+    let focal = f64::from(bench.size[1]) / (2.0 * (f64::from(bench.camera.fov_y) / 2.0).tan());
+    let width = focal * roughness(own).powi(2) * reflected / (depth(own) + reflected);
+    ((roughness(other) - roughness(own)) / 0.05).powi(2) + 0.5 * (pixels / (2.0 * width).max(2.0)).powi(2)
+}
+
+/// The same of specular light, of which the pass also knows the distances of what is reflected.
+fn glossy_twin(
+    bench: &Bench,
+    features: Features,
+    iteration: u32,
+    image: &[Texel],
+    reflected: &[f64],
+    [x, y]: [i32; 2],
+) -> (V, f64, V) {
     let f = &bench.settings.filter;
+    let glossy = features.has(Feature::SpecularSignal);
+    let sigma_luminance = f64::from(if glossy { f.gloss_sigma_luminance } else { f.sigma_luminance });
     let stride = 1 << iteration;
     let guide = |i: usize| [image[i][2], image[i][3]];
     let here = bench.at(x, y).unwrap();
@@ -53,6 +79,8 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
         let cosine = dot(normal, unpack_normal(guide(i)[0]));
         let difference = luminance(color) - luminance(own);
         let far = depth(guide(i));
+        let pixels = f64::from(stride) * f64::from(dx).hypot(f64::from(dy));
+        let of_gloss = if glossy { gloss_stop(bench, [guide(here), guide(i)], reflected[here], pixels) } else { 0.0 };
         let stop = if features.has(Feature::ClassicStops) {
             // ∇z·Δp of the tangent plane: d(1/z) is affine in the pixel, so z's derivative is −z·(n·∂ray)/(n·ray).
             let moved = sub(bench.ray(x + dx * stride, y + dy * stride), bench.ray(x, y));
@@ -60,18 +88,20 @@ pub(super) fn twin(bench: &Bench, features: Features, iteration: u32, image: &[T
             let along = if along.abs() < 1e-4 { -1e-4 } else { along };
             let change = (z * dot(normal, moved) / along).abs();
             let exponent = (far - z).abs() / (f64::from(f.sigma_depth) * change + 1e-3 * z)
-                + difference.abs() / (f64::from(f.sigma_luminance) * variance.sqrt() + 1e-6 * luminance(own) + 1e-37);
+                + difference.abs() / (sigma_luminance * variance.sqrt() + 1e-6 * luminance(own) + 1e-37)
+                + of_gloss;
             cosine.clamp(0.0, 1.0).powf(f.sigma_normal.into()) * (-exponent).exp()
         } else {
             let there = bench.position(x + dx * stride, y + dy * stride, far);
             let distance = dot(normal, sub(there, position)).abs() / (f64::from(f.sigma_depth) * z);
             let excess = (difference * difference - variance - variance.min(other)).max(0.0);
-            let sigma = f64::from(f.sigma_luminance).powi(2);
+            let sigma = sigma_luminance.powi(2);
             let slant = f64::from(f.sigma_foreshortening) * foreshortening(bench, [x, y], [dx, dy], normal);
             let exponent = slant
                 + distance
                 + f64::from(f.sigma_normal) * (1.0 - cosine)
-                + excess / (sigma * (variance + other) + 1e-37);
+                + excess / (sigma * (variance + other) + 1e-37)
+                + of_gloss;
             falloff(exponent)
         };
         taps.push((spline(dx) * spline(dy) * stop, [dx, dy].map(f64::from), color, other));
@@ -133,6 +163,7 @@ fn check(settings: &Settings, features: &[Feature], iteration: u32) {
 
 fn check_step(settings: &Settings, step: &Step) {
     let iteration = step.iteration;
+    let glossy = step.features.has(Feature::SpecularSignal);
     for size in SIZES {
         let bench = Bench::new(size, settings.clone());
         let mut random = Random(u64::from(size[0]) + 100 * u64::from(iteration));
@@ -144,12 +175,30 @@ fn check_step(settings: &Settings, step: &Step) {
                 // Deviations go from 0 to far beyond the colour.
                 _ => {
                     let [a, b] = pack_tap(radiance(&mut random), random.unit().powi(4) * 3.0);
-                    [a, b, g[0], g[1]]
+                    if !glossy {
+                        return [a, b, g[0], g[1]];
+                    }
+                    // The depth of specular light ends with the code of the roughness: a mirror's, the roughest, and those between.
+                    let code = [1, 255, 100, 101, 105, 1 + random.below(255) as u32][random.below(6)];
+                    [a, b, g[0], g[1] & !255 | code]
                 }
             })
             .collect();
+        // What is reflected touches the surface, or is the sky, or is anywhere between.
+        let codes: Vec<[u32; 2]> = image
+            .iter()
+            .map(|_| {
+                let distance = [0.0, 1e-9, 8e9, 0.3, 4.0, random.between(0.0, 10.0)][random.below(6)];
+                pack_motion([random.between(-9.0, 9.0), 0.0, distance])
+            })
+            .collect();
+        let reflected: Vec<f64> = codes.iter().map(|&code| unpack_motion(code)[2]).collect();
         let half = |first: usize| image.iter().map(|t| [t[first], t[first + 1], 0, 0]).collect::<Vec<Texel>>();
-        let written = bench.run(step, &[("color", half(0)), ("guide", half(2))]);
+        let mut inputs = vec![("color", half(0)), ("guide", half(2))];
+        if glossy {
+            inputs.push(("reflection", codes.iter().map(|c| [c[0], c[1], 0, 0]).collect()));
+        }
+        let written = bench.run(step, &inputs);
         for (x, y) in bench.pixels() {
             let i = bench.at(x, y).unwrap();
             let out = written["color_out"][i];
@@ -158,7 +207,7 @@ fn check_step(settings: &Settings, step: &Step) {
                 assert_eq!(out, [0; 4], "{}: a miss", what());
                 continue;
             }
-            let (color, deviation, mean) = twin(&bench, step.features, iteration, &image, x, y);
+            let (color, deviation, mean) = glossy_twin(&bench, step.features, iteration, &image, &reflected, [x, y]);
             let (found, spread) = unpack_tap(out);
             for channel in 0..3 {
                 // Results are stored to 2⁻¹². Exponents reach some ten; their distances are differences of numbers a hundred times as
@@ -204,6 +253,22 @@ fn the_last_iteration_takes_the_nearest_taps() {
             &Step::nth(&atrous::PASS, features.with(Feature::SmallKernel), Nth::after(4)),
         );
     }
+}
+
+#[test]
+fn the_stops_of_specular_light() {
+    use Feature::*;
+    let sets: [&[Feature]; 3] = [
+        &[SpecularSignal],
+        &[SpecularSignal, LocalLinearFit, RidgeByNoise],
+        &[SpecularSignal, FullKernel, LocalLinearFit],
+    ];
+    for features in sets {
+        for iteration in [0, 1, 3] {
+            check(&Settings::adaptive(), features, iteration);
+        }
+    }
+    check(&Settings::classic(), &[SpecularSignal, ClassicStops, FullKernel], 1);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod far;
 mod flicker;
 mod gloss;
 mod gloss_elsewhere;
+mod gloss_lag;
 mod leaving_out;
 mod lifecycle;
 mod motion;
