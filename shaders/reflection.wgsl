@@ -100,11 +100,17 @@ fn object_at(pixel: vec2<i32>) -> u32 {
 #endif
 }
 
+// Least part of the differences of normals, squared, that one curvature explains on a round surface. It is 1 on a ball, ½ on a cylinder and
+// less where surfaces meet.
+const ROUND: f32 = 0.8;
+
 // Facts on a pixel's neighbourhood.
 struct Around {
     // Harmonic mean of the distances of what is reflected: near things move most.
     hit_distance: f32,
     curvature: f32,
+    // True if the surface is curved alike in all directions.
+    is_round: bool,
 }
 
 fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, exists: bool) -> Around {
@@ -116,6 +122,7 @@ fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, exists: bool) -> Arou
     var known = 0.0;
     var turned = 0.0;
     var apart = 0.0;
+    var differences = 0.0;
     let taps = select(0, 25, exists);
     for (var i = 0; i < taps; i++) {
         // (i·13) >> 6 is i / 5 for i < 25.
@@ -129,17 +136,22 @@ fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, exists: bool) -> Arou
         let p = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(clamped)), bitcast<f32>(g.y)) - here;
         turned += select(0.0, dot(n - normal, p), same);
         apart += select(0.0, dot(p, p), same);
+        differences += select(0.0, dot(n - normal, n - normal), same);
         let told = same && there.hit_distance > 0.0;
         inverse += select(0.0, 1.0 / there.hit_distance, told);
         known += select(0.0, 1.0, told);
     }
     let distance = select(UNKNOWN_DISTANCE * scale_at(frame.camera, depth), known / inverse, known > 0.0);
-    return Around(distance, select(0.0, turned / apart, apart > 0.0));
+    return Around(distance, select(0.0, turned / apart, apart > 0.0), turned * turned > ROUND * differences * apart);
 }
 
 #ifndef STILL
-// Least absolute denominator of the thin mirror's formula: a concave mirror may show its image at infinity.
+// Least absolute denominator of the thin mirror's formula on a round mirror: a concave one may show its image at infinity, or before itself.
 const LEAST_FACTOR: f32 = 0.02;
+
+// Least denominator elsewhere. Failure: a corner's reflections jumped. Reason: where two surfaces meet, their normals look like those of a
+// narrow bowl, whose images are before it. Rule: only what is round all over shows images before itself.
+const LEAST_FACTOR_ELSEWHERE: f32 = 0.2;
 
 // Least cosine at which the formula is used.
 const LEAST_COSINE: f32 = 0.1;
@@ -221,10 +233,15 @@ fn search(start: vec2<f32>, reflected: vec3<f32>, own: u32, steps: i32) -> vec2<
 }
 
 // The normal that a surface had at its former place, in pixels of the last frame: the mean of the four around, if the surface has moved.
+// Three of the four are a mean of another place, so at a border the surface counts as not turned. The mean of four that are s apart is off
+// by about s² where the surface is curved, so the turn must be larger.
 fn former_normal(place: vec2<f32>, normal: vec3<f32>, own: u32, has_moved: bool) -> vec3<f32> {
     let base = vec2<i32>(floor(place));
     let f = place - vec2<f32>(base);
     var sum = vec3(0.0);
+    var all_four = has_moved;
+    var low = vec3(1.0);
+    var high = vec3(-1.0);
     let taps = select(0, 4, has_moved);
     for (var i = 0; i < taps; i++) {
         let offset = vec2(i & 1, i >> 1u);
@@ -233,10 +250,14 @@ fn former_normal(place: vec2<f32>, normal: vec3<f32>, own: u32, has_moved: bool)
         let n = unpack_normal(g.x);
         let same = inside(base + offset) && g.y != 0u && object_before(tap) == own && dot(n, normal) >= SAME_SURFACE;
         let w = mix(vec2(1.0) - f, f, vec2<f32>(offset));
-        sum += select(0.0, w.x * w.y, same) * n;
+        sum += w.x * w.y * n;
+        all_four &= same;
+        low = min(low, n);
+        high = max(high, n);
     }
-    let mean = normalize(select(normal, sum, dot(sum, sum) > 0.0));
-    return select(normal, mean, distance(mean, normal) > TURNED);
+    let mean = normalize(select(normal, sum, all_four));
+    let spread = distance(low, high);
+    return select(normal, mean, distance(mean, normal) > TURNED + spread * spread);
 }
 
 // The motion of the reflection, in pixels.
@@ -247,7 +268,8 @@ fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: A
     let cosine = abs(dot(d, normal));
     let h = near.hit_distance;
     let nominal = 1.0 + 2.0 * near.curvature * h / max(cosine, LEAST_COSINE);
-    let factor = select(max(nominal, LEAST_FACTOR), min(nominal, -LEAST_FACTOR), nominal < 0.0);
+    let concave = select(max(nominal, LEAST_FACTOR), min(nominal, -LEAST_FACTOR), nominal < 0.0);
+    let factor = select(max(nominal, LEAST_FACTOR_ELSEWHERE), concave, near.is_round);
     let was = seen_position(frame.previous, point + moved.xy, moved.z);
     // Failure: reflections on curved mirrors were off by the change of the jitter. Reason: a motion counts without either frame's jitter,
     // but the last frame's G-buffer was sampled with its own. Rule: places in that G-buffer are off by the difference.
