@@ -17,7 +17,7 @@
 @group(0) @binding(26) var albedo: texture_2d<f32>;
 #endif
 #ifdef SUMMED_ALBEDO
-@group(0) @binding(29) var reflectance: texture_2d<f32>;
+@group(0) @binding(32) var reflectance: texture_2d<f32>;
 #endif
 #ifdef DIRECT_EMISSION
 @group(0) @binding(27) var emission: texture_2d<f32>;

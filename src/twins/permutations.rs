@@ -175,9 +175,10 @@ fn host_plans() -> Vec<Plan> {
         }
     }
     // Gloss: any subset of what is known of it, with light apart or not, albedo or not.
-    for (bits, gradient) in product(&(0_u32..1 << 10).collect::<Vec<_>>(), &HOST_GRADIENTS) {
+    for (bits, gradient) in product(&(0_u32..1 << 11).collect::<Vec<_>>(), &HOST_GRADIENTS) {
         let bit = |i: u32| bits >> i & 1 == 1;
         let inputs = HostInputs {
+            diagnostics: bit(10),
             specular: bit(0),
             reflectance: bit(1),
             roughness: bit(2),
