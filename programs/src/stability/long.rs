@@ -2,7 +2,7 @@
 
 use crate::stability::cases::furnace::{self, Furnace, ROUNDING};
 use crate::stability::cases::painted::{Path, grey};
-use crate::stability::cases::{Breaks, Case, Worst, dynamics, unusable};
+use crate::stability::cases::{Breaks, Case, Worst, dynamics, mirrors, unusable};
 use crate::stability::common::gpu::gpu;
 use crate::stability::common::images::{colors, upload};
 use crate::stability::common::stage::Stage;
@@ -49,6 +49,7 @@ pub const CASES: &[Case] = &[
         measure: traced,
         breaks: Breaks::Never("history lengths end at `max_history`, frame numbers wrap"),
     },
+    Case { name: "100 000 frames of a still mirror", measure: || mirrors::drift_within(100_000), ..mirrors::STILL },
 ];
 
 /// Images of the cycle: a prime, so that it does not beat with the nine places of a stratum.

@@ -14,12 +14,14 @@ use std::error::Error;
 use std::ffi::OsString;
 
 /// Groups, in the order of the table.
-const GROUPS: [(&str, &[cases::Case]); 10] = [
+const GROUPS: [(&str, &[cases::Case]); 12] = [
     ("Range of radiance", cases::radiance::CASES),
     ("Missing, infinite and repeated samples", cases::samples::CASES),
     ("Outliers", cases::outliers::CASES),
     ("Stiff dynamics", cases::dynamics::CASES),
     ("Geometry", cases::geometry::CASES),
+    ("Specular light", cases::gloss::CASES),
+    ("Mirrors", cases::mirrors::CASES),
     ("Shapes of the image", cases::shapes::CASES),
     ("Events", cases::events::CASES),
     ("Hostile input", cases::hostile::CASES),

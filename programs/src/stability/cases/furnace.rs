@@ -5,7 +5,7 @@
 use crate::stability::common::scenes::{lambert, scene};
 use crate::stability::common::stage::Stage;
 use asvgf::scene::{Environment, GpuScene, Mesh, Scene};
-use asvgf::{Camera, Sampling, Settings, TracerSettings, View};
+use asvgf::{Camera, Mode, Sampling, Settings, TracerSettings, View};
 
 /// A thousandth: albedo has 10 bits, radiance 18, the spatial filter's taps 10. All represent 1 and ½ exactly; weights
 /// that sum to 1 do so only roughly.
@@ -21,9 +21,14 @@ pub struct Furnace(Stage);
 
 impl Furnace {
     pub fn new(size: [u32; 2]) -> Self {
+        Self::in_mode(Mode::Denoise, size)
+    }
+
+    /// Makes a furnace whose images are filtered or not.
+    pub fn in_mode(mode: Mode, size: [u32; 2]) -> Self {
         // One reflection, by scattered rays alone.
         let tracer = TracerSettings { bounces: 0, sampling: Sampling::Scattered, ..Default::default() };
-        Self(Stage::new(grey(Vec::new()), size, Settings { tracer, ..Settings::adaptive() }))
+        Self(Stage::new(grey(Vec::new()), size, Settings { mode, tracer, ..Settings::adaptive() }))
     }
 
     pub fn resize(&mut self, size: [u32; 2]) {
@@ -33,6 +38,17 @@ impl Furnace {
     /// Returns [`Furnace::farthest`], infinite if no pixel sees a surface.
     pub fn farthest_seen(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
         let farthest = self.farthest(scene, frames, camera);
+        self.if_seen(farthest)
+    }
+
+    /// Returns the largest distance of a pixel from 1 over frames, infinite if no pixel of the last one sees a surface.
+    pub fn farthest_from_white(&mut self, scene: Scene, frames: u32, camera: impl Fn(u32) -> Camera) -> f64 {
+        let farthest = self.largest(scene, frames, camera, |x| (x - 1.0).abs());
+        self.if_seen(farthest)
+    }
+
+    /// Returns the number, infinite if no pixel sees a surface.
+    fn if_seen(&mut self, farthest: f64) -> f64 {
         let sees = self.0.view(View::Depth).iter().any(|d| d[0] > 0.0);
         if sees { farthest } else { f64::INFINITY }
     }

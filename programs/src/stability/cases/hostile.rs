@@ -30,6 +30,16 @@ pub const CASES: &[Case] = &[
         breaks: Breaks::Never("a depth outside 10⁻¹⁸ … 10¹⁸ is a miss, so that its square is a normal number"),
     },
     Case {
+        name: "views of specular light",
+        varied: "NaN, −NaN, ±∞, −1, −5, −10³⁰, 10¹⁰, 3.4·10³⁸ in radiance, reflectance, roughness, distance, motion; one pixel, a block, everywhere; in one \
+            frame, in each of four",
+        quantity: "pixels of the image or a history that are not finite and ≥ 0, in that frame or later, and miscounts",
+        bound: 0.0,
+        origin: "no unusable number may enter the history; `take_counts` counts those of radiance and reflectance",
+        measure: specular,
+        breaks: Breaks::Never("exponent bits are tested, which no compiler may assume away"),
+    },
+    Case {
         name: "one clean frame later",
         varied: "NaN in 6×9 pixels of one frame, in each of these views",
         quantity: "largest difference from a clean run outside the filter's reach, and pixels within it that are not finite",
@@ -59,6 +69,21 @@ const SURFACE: [Spoil; 4] = [
     ("previous depth", |v, i, x| v.previous_depth[i][0] = x),
 ];
 
+const SPECULAR_KINDS: [f32; 9] =
+    [f32::NAN, -f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, -5.0, -1e30, 1e10, f32::MAX];
+
+const SPECULAR: [Spoil; 5] = [
+    ("specular radiance", |v, i, x| v.gloss.iter_mut().for_each(|gloss| gloss.radiance[i][i % 3] = x)),
+    ("reflectance", |v, i, x| v.gloss.iter_mut().for_each(|gloss| gloss.reflectance[i][i % 3] = x)),
+    ("roughness", |v, i, x| v.gloss.iter_mut().for_each(|gloss| gloss.roughness[i] = [x])),
+    ("hit distance", |v, i, x| v.gloss.iter_mut().for_each(|gloss| gloss.hit_distance[i] = [x])),
+    ("reflection's motion", |v, i, x| v.gloss.iter_mut().for_each(|gloss| gloss.motion[i][i % 2] = x)),
+];
+
+fn has(spoils: &[Spoil], name: &str) -> bool {
+    spoils.iter().any(|(other, _)| *other == name)
+}
+
 /// Predicate of the spoilt pixels.
 type Hit = fn(usize) -> bool;
 
@@ -87,14 +112,15 @@ fn spoilt(host: &mut Painted, frames: u32, spoil: Spoil, value: f32, hit: Hit) -
     host.index = 0;
     let mut broken = 0.0;
     for frame in 0..8 {
-        let mut views = host.views(&noisy);
+        let glossy = has(&SPECULAR, spoil.0);
+        let mut views = if glossy { host.glossy_views(&noisy, &noisy) } else { host.views(&noisy) };
         let bad = (2..2 + frames).contains(&frame);
         let chosen: Vec<usize> = (0..views.depth.len()).filter(|&i| bad && hit(i)).collect();
         chosen.iter().for_each(|&i| spoil.1(&mut views, i, value));
         broken += unusable(&host.denoise(&views)) as f64;
         let found = counts(host);
         let number = |is: bool| if is { chosen.len() as f64 } else { 0.0 };
-        let is_light = LIGHT.iter().any(|(name, _)| *name == spoil.0);
+        let is_light = has(&LIGHT, spoil.0) || has(&SPECULAR[..2], spoil.0);
         let expected = [
             number(is_light && !value.is_finite()),
             number(is_light && value.is_finite() && value < 0.0),
@@ -109,6 +135,10 @@ fn spoilt(host: &mut Painted, frames: u32, spoil: Spoil, value: f32, hit: Hit) -
         let found = [found.non_finite, found.negative, found.surfaces].map(f64::from);
         broken += found.iter().zip(expected).map(|(f, e)| (f - e).abs()).sum::<f64>();
         broken += unusable(&host.view(View::Variance)) as f64;
+        if glossy {
+            broken += unusable(&host.view(View::Specular)) as f64;
+            broken += unusable(&host.view(View::SpecularHistoryLength)) as f64;
+        }
     }
     broken
 }
@@ -139,14 +169,18 @@ fn surfaces() -> Worst {
     each(&SURFACE, &SURFACE_KINDS)
 }
 
+fn specular() -> Worst {
+    each(&SPECULAR, &SPECULAR_KINDS)
+}
+
 fn afterwards() -> Worst {
     let size = [120, 9];
     let mut worst = Worst::default();
-    let run = |spoil: Option<Spoil>| {
+    let run = |spoil: Option<Spoil>, glossy: bool| {
         let mut host = Painted::new(size, adaptive());
         let mut images = Vec::new();
         for frame in 0..6 {
-            let mut views = host.views(&noisy);
+            let mut views = if glossy { host.glossy_views(&noisy, &noisy) } else { host.views(&noisy) };
             if let (3, Some(spoil)) = (frame, spoil) {
                 (0..views.depth.len()).filter(|i| i % 120 < 6).for_each(|i| spoil.1(&mut views, i, f32::NAN));
             }
@@ -154,14 +188,15 @@ fn afterwards() -> Worst {
         }
         images
     };
-    let clean = run(None);
-    for spoil in LIGHT.into_iter().chain(SURFACE) {
-        let images = run(Some(spoil));
+    let clean = [false, true].map(|glossy| run(None, glossy));
+    for spoil in LIGHT.into_iter().chain(SURFACE).chain(SPECULAR) {
+        let glossy = has(&SPECULAR, spoil.0);
+        let (images, clean) = (run(Some(spoil), glossy), &clean[usize::from(glossy)]);
         // Columns beyond the reach of the filter in two frames.
         let far = |image: &[Rgb]| -> Vec<Rgb> {
             image.iter().enumerate().filter(|(i, _)| i % 120 >= 80).map(|(_, c)| *c).collect()
         };
-        for (frame, (found, expected)) in images.iter().zip(&clean).enumerate() {
+        for (frame, (found, expected)) in images.iter().zip(clean).enumerate() {
             let value = difference(&far(found), &far(expected)).max(unusable(found) as f64);
             worst.add(value, || format!("{}, frame {frame}", spoil.0));
         }

@@ -5,7 +5,7 @@ use super::{Breaks, Case, Named, Worst};
 use crate::stability::common::statistics::{Rgb, mean};
 use asvgf::{FilterSettings, Gradient, Settings};
 
-const SIZE: [u32; 2] = [96, 72];
+pub(super) const SIZE: [u32; 2] = [96, 72];
 
 pub const CASES: &[Case] = &[
     Case {
@@ -64,7 +64,7 @@ fn settings() -> [Named<Settings>; 2] {
     [("pairs", adaptive()), ("no pairs", Settings { filter: statistics, ..Settings::adaptive() })]
 }
 
-fn noisy(path: &Path) -> Rgb {
+pub(super) fn noisy(path: &Path) -> Rgb {
     grey(path.noise())
 }
 
@@ -94,7 +94,7 @@ fn rates() -> Worst {
 }
 
 /// Returns means over tiles of 12×12 pixels.
-fn tiles(image: &[Rgb]) -> Vec<f64> {
+pub(super) fn tiles(image: &[Rgb]) -> Vec<f64> {
     let [width, height] = SIZE.map(|s| s as usize);
     let tile = |x: usize, y: usize| {
         let of: Vec<Rgb> = (0..144).map(|i| image[(y + i / 12) * width + x + i % 12]).collect();

@@ -8,7 +8,7 @@ use crate::stability::common::gpu::gpu;
 use crate::stability::common::images::{colors, upload};
 use crate::stability::common::statistics::Rgb;
 use asvgf::{
-    Camera, Denoiser, DenoiserDescriptor, FilterSettings, Gradient, Pairs, Settings, Shading, Surfaces, View,
+    Camera, Denoiser, DenoiserDescriptor, FilterSettings, Gloss, Gradient, Pairs, Settings, Shading, Surfaces, View,
     ViewOptions,
 };
 use wgpu::{TextureFormat, TextureView};
@@ -65,6 +65,21 @@ pub struct Views {
     pub albedo: Vec<Rgb>,
     pub emission: Vec<Rgb>,
     pub pairs: [Vec<Rgb>; 2],
+    /// Specular light, if it is a signal of its own.
+    pub gloss: Option<GlossViews>,
+}
+
+/// A host's views of specular light.
+#[derive(Clone, Debug)]
+pub struct GlossViews {
+    /// True if all light comes in one radiance: the specular radiance is not handed in.
+    pub is_one_radiance: bool,
+    pub radiance: Vec<Rgb>,
+    pub reflectance: Vec<Rgb>,
+    pub roughness: Vec<[f32; 1]>,
+    pub hit_distance: Vec<[f32; 1]>,
+    pub motion: Vec<[f32; 2]>,
+    pub pairs: [Vec<Rgb>; 2],
 }
 
 pub struct Painted {
@@ -96,8 +111,8 @@ impl Painted {
         (0..height).flat_map(move |y| (0..width).map(move |x| [x, y]))
     }
 
-    /// Returns the next frame as a host would hand it in.
-    pub fn views(&self, light: &dyn Fn(&Path) -> Rgb) -> Views {
+    /// Returns a light of the next frame: the radiance, and the pairs.
+    fn paint(&self, light: &dyn Fn(&Path) -> Rgb) -> (Vec<Rgb>, [Vec<Rgb>; 2]) {
         let (index, before) = (self.index, self.index.wrapping_sub(1));
         // The choice goes around the stratum in steps of four places, as the denoiser's own does.
         let place = 4 * (index % 9) % 9;
@@ -107,17 +122,41 @@ impl Painted {
             let of = |pixel| if repeats(pixel) { light(&Path { pixel, seed: before, frame }) } else { [-1.0; 3] };
             self.pixels().map(of).collect()
         };
-        let count = self.pixels().count();
+        (self.pixels().map(|pixel| light(&own(pixel))).collect(), [pair(index), pair(before)])
+    }
+
+    /// Returns the next frame as a host would hand it in.
+    pub fn views(&self, light: &dyn Fn(&Path) -> Rgb) -> Views {
+        let (radiance, pairs) = self.paint(light);
+        let count = radiance.len();
         Views {
             depth: vec![[2.0]; count],
             normal: vec![[0.0, 0.0, 1.0]; count],
             motion: vec![[0.0; 2]; count],
             previous_depth: vec![[2.0]; count],
-            radiance: self.pixels().map(|pixel| light(&own(pixel))).collect(),
+            radiance,
             albedo: vec![[1.0; 3]; count],
             emission: vec![[0.0; 3]; count],
-            pairs: [pair(index), pair(before)],
+            pairs,
+            gloss: None,
         }
+    }
+
+    /// Returns the next frame of a wall that shines: a roughness of 0.2 and a reflectance of ½, before things at the wall's
+    /// own distance. The motion of the reflections is unknown.
+    pub fn glossy_views(&self, diffuse: &dyn Fn(&Path) -> Rgb, specular: &dyn Fn(&Path) -> Rgb) -> Views {
+        let (radiance, pairs) = self.paint(specular);
+        let count = radiance.len();
+        let gloss = GlossViews {
+            is_one_radiance: false,
+            radiance,
+            reflectance: vec![[0.5; 3]; count],
+            roughness: vec![[0.2]; count],
+            hit_distance: vec![[2.0]; count],
+            motion: vec![[f32::NAN; 2]; count],
+            pairs,
+        };
+        Views { gloss: Some(gloss), ..self.views(diffuse) }
     }
 
     /// Filters a host's input.
@@ -128,6 +167,7 @@ impl Painted {
         let [normal, radiance, albedo, emission, current, previous] =
             [&views.normal, &views.radiance, &views.albedo, &views.emission, &views.pairs[0], &views.pairs[1]]
                 .map(|image| upload(gpu, size, image));
+        let gloss = views.gloss.as_ref().map(|gloss| Uploaded::new(size, gloss));
         let surfaces = Surfaces {
             previous_depth: Some(&previous_depth),
             ..Surfaces::new(self.camera, self.index, &depth, &normal, &motion)
@@ -136,6 +176,7 @@ impl Painted {
             albedo: Some(&albedo),
             emission: Some(&emission),
             pairs: Some(Pairs { current: &current, previous: &previous, in_place: true }),
+            gloss: gloss.as_ref().map(Uploaded::gloss),
             ..Shading::new(&radiance, &self.target)
         };
         gpu.submit(|encoder| {
@@ -168,5 +209,41 @@ impl Painted {
     pub fn largest(&mut self, view: View) -> f64 {
         let finite = |x: f32| if x.is_finite() { f64::from(x) } else { f64::INFINITY };
         self.view(view).iter().map(|c| finite(c[0])).fold(0.0, f64::max)
+    }
+}
+
+/// A host's views of specular light on the GPU.
+struct Uploaded {
+    radiance: Option<TextureView>,
+    reflectance: TextureView,
+    roughness: TextureView,
+    hit_distance: TextureView,
+    motion: TextureView,
+    pairs: [TextureView; 2],
+}
+
+impl Uploaded {
+    fn new(size: [u32; 2], views: &GlossViews) -> Self {
+        let color = |image: &Vec<Rgb>| upload(gpu(), size, image);
+        Self {
+            radiance: (!views.is_one_radiance).then(|| color(&views.radiance)),
+            reflectance: color(&views.reflectance),
+            roughness: upload(gpu(), size, &views.roughness),
+            hit_distance: upload(gpu(), size, &views.hit_distance),
+            motion: upload(gpu(), size, &views.motion),
+            pairs: views.pairs.each_ref().map(color),
+        }
+    }
+
+    fn gloss(&self) -> Gloss<'_> {
+        let [current, previous] = &self.pairs;
+        Gloss {
+            radiance: self.radiance.as_ref(),
+            reflectance: Some(&self.reflectance),
+            roughness: Some(&self.roughness),
+            hit_distance: Some(&self.hit_distance),
+            motion: Some(&self.motion),
+            pairs: Some(Pairs { current, previous, in_place: true }),
+        }
     }
 }
