@@ -75,7 +75,10 @@ Output
   --outputs LIST        images to write, separated by commas                [denoised]
                         denoised, lambda, history (its length in frames), alpha,
                         gradient, variance, noisy, albedo, normal, depth, motion,
-                        motion-error, non-finite, outliers
+                        motion-error, non-finite, outliers; and of specular light, if it is a
+                        signal of its own: specular, specular-noisy, diffuse-noisy,
+                        specular-albedo, roughness, hit-distance, reflection-motion,
+                        agreement, specular-history (its length in frames)
   --format LIST         exr, png (tone-mapped), or exr,png                       [exr]
   --keep-channels       denoised files have all channels and parts of the frame's file, with
                         other colours                               [R, G, B and its A]
@@ -95,7 +98,7 @@ Exit status: 0 done, 1 failed, 2 wrong usage.
 ";
 
 /// Outputs by the names of their files.
-const OUTPUTS: [(&str, View); 14] = [
+pub const OUTPUTS: [(&str, View); 23] = [
     ("denoised", View::Denoised),
     ("lambda", View::Lambda),
     ("history", View::HistoryLength),
@@ -110,6 +113,15 @@ const OUTPUTS: [(&str, View); 14] = [
     ("motion-error", View::MotionError),
     ("non-finite", View::NonFinite),
     ("outliers", View::Outliers),
+    ("specular", View::Specular),
+    ("specular-noisy", View::SpecularNoisy),
+    ("diffuse-noisy", View::DiffuseNoisy),
+    ("specular-albedo", View::SpecularAlbedo),
+    ("roughness", View::Roughness),
+    ("hit-distance", View::HitDistance),
+    ("reflection-motion", View::ReflectionMotion),
+    ("agreement", View::Agreement),
+    ("specular-history", View::SpecularHistoryLength),
 ];
 
 /// Request of the command line.

@@ -1,6 +1,7 @@
 //! Files of a sequence: their grouping, and their order.
 
 use super::{SequenceError, wrong};
+use asvgf::View;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,25 +31,9 @@ impl Template {
 /// Most digits of a frame's number: more digits are a date or a checksum.
 const MOST_DIGITS: usize = 9;
 
-/// Names before the number that mark results or references, not frames.
-const NOT_FRAMES: [&str; 16] = [
-    "denoised",
-    "reference",
-    "lambda",
-    "history",
-    "alpha",
-    "gradient",
-    "variance",
-    "noisy",
-    "albedo",
-    "normal",
-    "depth",
-    "motion",
-    "motion-error",
-    "non-finite",
-    "outliers",
-    "light",
-];
+/// Names before the number that mark results or references, not frames; so do the names of all views, which `render` and
+/// `denoise` write.
+const NOT_FRAMES: [&str; 4] = ["history", "light", "reference", "specular-history"];
 
 /// Returns the frames of a folder, of a pattern (`shot.####.exr`), or of the sequence that a file belongs to, in order.
 pub fn list(input: &Path) -> Result<Vec<FrameFile>, SequenceError> {
@@ -141,7 +126,7 @@ fn pick(groups: &BTreeMap<Template, Vec<String>>) -> Result<Group<'_>, String> {
     }
     let is_frame = |(template, _): &Group<'_>| {
         let name = template.before.trim_end_matches(['_', '.', '-']).to_lowercase();
-        !NOT_FRAMES.contains(&name.as_str())
+        !NOT_FRAMES.contains(&name.as_str()) && !View::ALL.iter().any(|view| view.name() == name)
     };
     let mut frames: Vec<Group<'_>> = groups.iter().filter(is_frame).collect();
     if frames.is_empty() {

@@ -65,7 +65,7 @@ fn what_is_wrong_is_named() {
         ("in --out out --frames 9-1", "--frames 9-1: must be two numbers of frames"),
         ("in --out out --compression gzip", "--compression gzip: must be one of none, rle"),
         ("in --out out --iterations 9", "--iterations 9: must be a whole number from 0 to 8"),
-        ("in --out out --outputs rays", "--outputs rays: must be one of denoised"),
+        ("in --out out --outputs specular,rays", "--outputs rays: must be one of denoised"),
         ("in --out out --sharpen", "--sharpen"),
     ] {
         let error = options(line).map(|o| o.outputs).expect_err(line);

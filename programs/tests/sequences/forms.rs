@@ -245,6 +245,11 @@ fn file_names_are_read_as_people_write_them() {
     // Results and references beside the frames are no frames.
     let folder = names(&["0001.exr", "0002.exr", "denoised_0001.exr", "reference_0001.exr"]);
     assert_eq!(folder.open().unwrap().frames(), 2);
+    let outputs = asvgf_programs::denoise::options::OUTPUTS.map(|(name, _)| name);
+    for name in outputs.into_iter().chain(asvgf::View::ALL.iter().map(|view| view.name())) {
+        let folder = names(&["0001.exr", "0002.exr", &format!("{name}_0001.exr"), &format!("{name}_0002.exr")]);
+        assert_eq!(folder.open().unwrap().frames(), 2, "{name}");
+    }
     // A folder with two sequences needs a pattern or one of the frames to name one.
     let folder = names(&["a.1.exr", "a.2.exr", "b.7.exr"]);
     let error = folder.open().unwrap_err().to_string();
