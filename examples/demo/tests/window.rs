@@ -136,6 +136,35 @@ fn every_source_and_view_can_be_looked_at() {
 }
 
 #[test]
+fn every_view_of_specular_light_can_be_looked_at() {
+    let playing = ["move-object", "move-camera"].map(String::from).to_vec();
+    let motion = Motion { playing, ..still() };
+    let mut window = Window::open(SIZE, State { scene: "gloss".into(), motion, ..State::default() });
+    window.frames(2);
+    let of_specular_light = [
+        View::DiffuseNoisy,
+        View::SpecularNoisy,
+        View::Specular,
+        View::SpecularAlbedo,
+        View::Roughness,
+        View::HitDistance,
+        View::ReflectionMotion,
+        View::Agreement,
+        View::SpecularHistoryLength,
+        View::SpecularPairNow,
+        View::SpecularPairBefore,
+    ];
+    for view in of_specular_light {
+        window.state(|state| state.view = view.name().into());
+        window.frames(1);
+        let expected = window.expected(Source::Adaptive, view);
+        let picture = window.picture(Source::Adaptive);
+        assert!(picture.texels == expected.texels, "{view:?} is what is shown");
+        assert!(picture.texels.iter().any(|t| *t != picture.texels[0]), "{view:?}");
+    }
+}
+
+#[test]
 fn the_reference_converges_while_time_stands_still() {
     // Plots need two references, with noise of their own.
     let mut window = Window::open(SIZE, State { plots: true, ..paused() });
