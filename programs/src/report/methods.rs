@@ -93,7 +93,7 @@ pub fn all() -> Vec<Method> {
 type Change = fn(&mut FilterSettings);
 
 /// The default without one of its ideas (docs/filter.md), for each idea.
-const ABLATIONS: [(&str, Change); 16] = [
+const ABLATIONS: [(&str, Change); 20] = [
     ("without gradient", |f| f.gradient = Gradient::Off),
     ("without ratio", |f| f.history_ratio = false),
     ("without linear fit", |f| f.local_linear_fit = false),
@@ -112,6 +112,11 @@ const ABLATIONS: [(&str, Change); 16] = [
     ("25 taps", |f| f.kernel = Kernel::Full),
     ("blend by lambda", |f| f.blend = Blend::Lambda),
     ("gradient by surface", |f| f.gradient_across_surfaces = false),
+    // Four ideas for specular light; where nothing shines, they change nothing.
+    ("one signal", |f| f.gloss = false),
+    ("without gloss clamp", |f| f.gloss_clamp = 0.0),
+    ("diffuse stop for gloss", |f| f.gloss_sigma_luminance = f.sigma_luminance),
+    ("diffuse power for gloss", |f| f.gloss_history_power = f.history_power),
     ("signed gradient", |f| {
         // The documentation of the signed gradient recommends these settings.
         (f.gradient_signed, f.gradient_iterations, f.gradient_dead_zone) = (true, 5, 0.1);
