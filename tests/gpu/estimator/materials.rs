@@ -1,8 +1,8 @@
 //! Materials with special light: unlit, coloured by vertices, coated, transparent.
 
 use super::{SIZE, channel, floor_points, from_above, images, tracer};
-use crate::common::scenes::{lambert, quad, scene};
-use asvgf::scene::{Alpha, Environment, Image, Material, Node, Scene, Texture, Transform};
+use crate::common::scenes::{lambert, quad, scene, shine};
+use asvgf::scene::{Alpha, Environment, Image, LightKind, Material, Node, Scene, Texture, Transform};
 use asvgf::{Camera, Sampling};
 
 #[test]
@@ -182,6 +182,35 @@ fn light_goes_through_a_blended_surface() {
         let scene = behind_a_sheet(sheet.clone(), lambert([0.5; 3]), false);
         let found = images(scene, from_above(), tracer(sampling, 0), 256);
         channel(&found, 1).assert_is(0.5 * 0.6 * 0.6, 1e-3, &format!("{sampling:?}"));
+    }
+}
+
+#[test]
+fn the_shadow_of_a_blended_surface_is_as_dark_as_its_opacity() {
+    // The sheet is above the camera, which sees its shadow alone.
+    let sheet = Material { alpha: Alpha::Blend, base_color: [0.8, 0.8, 0.8, 0.3], ..lambert([0.0; 3]) };
+    for moves in [false, true] {
+        let mut scene = behind_a_sheet(sheet.clone(), lambert([0.5; 3]), moves);
+        scene.environment = None;
+        scene.meshes[1].positions.iter_mut().for_each(|position| position[1] = 4.0);
+        shine(&mut scene, LightKind::Directional, [1.0; 3], f32::INFINITY, [0.0; 3]);
+        let found = images(scene, from_above(), tracer(Sampling::Both, 0), 64);
+        let expected = 0.5 / std::f64::consts::PI * (1.0 - 0.3);
+        channel(&found, 1).assert_is(expected, 1e-3, &format!("moves: {moves}"));
+    }
+}
+
+#[test]
+fn repeated_paths_meet_the_same_blended_surfaces() {
+    use crate::common::stage::Stage;
+    use asvgf::{FilterSettings, Gradient, Settings, View};
+    let sheet = Material { alpha: Alpha::Blend, base_color: [0.8, 0.0, 0.0, 0.3], ..lambert([0.0; 3]) };
+    let filter = FilterSettings { gradient: Gradient::Reshade, ..Default::default() };
+    let scene = behind_a_sheet(sheet, lambert([0.5; 3]), true);
+    let mut stage = Stage::new(scene, SIZE, Settings { filter, ..Settings::adaptive() }).leaving_nothing_out();
+    stage.camera = Some(from_above());
+    for frame in 0..12 {
+        assert_eq!(stage.frame().largest(View::Lambda), 0.0, "frame {frame}");
     }
 }
 
