@@ -52,10 +52,13 @@ fn cases() -> Vec<Case> {
 /// A feature, and a function that adds a speck of it to a scene.
 type Trait = (&'static str, fn(&mut Scene));
 
-const TRAITS: [Trait; 7] = [
+const TRAITS: [Trait; 8] = [
     ("… and a texture", |scene| speck(scene, textured, false, false)),
     ("… and a mask", |scene| speck(scene, |s| Material { alpha: Alpha::Mask(0.5), ..textured(s) }, false, false)),
     ("… and normals", |scene| speck(scene, |_| Material::default(), true, false)),
+    ("… and a normal map", |scene| {
+        speck(scene, |s| Material { normal_texture: textured(s).base_color_texture, ..textured(s) }, true, false)
+    }),
     ("… and gloss", |scene| speck(scene, |_| Material { metallic: 1.0, ..Default::default() }, false, false)),
     ("… and a mesh that moves", |scene| speck(scene, |_| Material::default(), false, true)),
     ("… and a light without area", |scene| {

@@ -10,6 +10,13 @@
 #ifdef VERTEX_COLORS
 #import asvgf::texture::vertex_color
 #endif
+#ifdef NORMAL_MAPS
+#import asvgf::normal_map::mapped_normal
+#ifdef SPECULAR
+#import asvgf::scene::NORMAL_MAPPED
+#import asvgf::normal_map::reflecting_normal
+#endif
+#endif
 
 const PI: f32 = 3.14159265358979;
 
@@ -89,7 +96,11 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     s.position = at(t, within_edges(t, weights, error));
     s.geometric = geometric_normal(t, ray_direction);
     s.margin = plane_margin(t, s.geometric, error);
+#ifdef NORMAL_MAPS
+    s.normal = mapped_normal(v, weights, s.geometric);
+#else
     s.normal = shading_normal(v, weights, s.geometric);
+#endif
     s.view = -normalize(ray_direction);
     s.emission = emission;
 #ifdef SPECULAR
@@ -98,6 +109,11 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     s.reflectance = mix(specular, base, metallic) * lit;
     s.edge = mix(edge, 1.0, metallic) * lit;
     s.alpha = max(roughness * roughness, LEAST_WIDTH);
+#ifdef NORMAL_MAPS
+    if (flags & NORMAL_MAPPED) != 0u && any(s.reflectance > vec3(0.0)) {
+        s.normal = reflecting_normal(s.normal, s.geometric, s.view);
+    }
+#endif
 #else
     s.diffuse = base;
 #endif

@@ -45,8 +45,8 @@ struct Scene {
 // Placements of the instances in the last frame, three rows of an affine map each.
 @group(1) @binding(2) var<storage, read> placements_previous: array<vec4<f32>>;
 #endif
-// Per triangle: three octahedral normals (0: none), then three (u, v) per set of texture coordinates, then three colours of four
-// 16-bit numbers.
+// Per triangle: three octahedral normals (0: none), with NORMAL_MAPS three tangents (0: none), then three (u, v) per set of texture
+// coordinates, then three colours of four 16-bit numbers.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
 // Materials and lights, the structs below texel by texel.
 @group(1) @binding(5) var materials: texture_2d<u32>;
@@ -77,7 +77,8 @@ struct TextureUse {
 struct Material {
     base_color: vec4<f32>,
     emissive: vec3<f32>,
-    // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: has no back faces. Bit 3: blended, covers as much as its opacity.
+    // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: has no back faces. Bit 3: blended, covers as much as its opacity. Bit 4: has a
+    // normal map.
     flags: u32,
     metallic: f32,
     roughness: f32,
@@ -87,6 +88,10 @@ struct Material {
     specular_edge: f32,
     // Reflectance of the dielectric coat at normal incidence.
     specular: vec3<f32>,
+#ifdef NORMAL_MAPS
+    // Texel of `materials` at which the parts begin that few materials have.
+    extension: u32,
+#endif
     base_color_texture: TextureUse,
     metallic_roughness_texture: TextureUse,
     emissive_texture: TextureUse,
@@ -100,6 +105,15 @@ const TWO_SIDED_EMITTER: u32 = 1u;
 const UNLIT: u32 = 2u;
 const CULLED: u32 = 4u;
 const BLENDED: u32 = 8u;
+const NORMAL_MAPPED: u32 = 16u;
+
+#ifdef NORMAL_MAPS
+struct NormalMap {
+    texture: TextureUse,
+    // Factor on the first two coordinates.
+    scale: f32,
+}
+#endif
 
 struct Light {
     // Kind, see light.wgsl.
@@ -167,10 +181,20 @@ fn load_material(i: u32) -> Material {
         bitcast<vec3<f32>>(emission.xyz), emission.w,
         numbers.x, numbers.y, numbers.z, numbers.w,
         bitcast<vec3<f32>>(material_word(first + 3u).xyz),
+#ifdef NORMAL_MAPS
+        material_word(first + 3u).w,
+#endif
         texture_use(first + 4u), texture_use(first + 7u), texture_use(first + 10u), texture_use(first + 13u),
         texture_use(first + 16u),
     );
 }
+
+#ifdef NORMAL_MAPS
+// The normal map of a material that has one.
+fn load_normal_map(m: Material) -> NormalMap {
+    return NormalMap(texture_use(m.extension), bitcast<f32>(material_word(m.extension + 3u).x));
+}
+#endif
 
 fn load_light(i: u32) -> Light {
     let first = i * 5u;

@@ -121,12 +121,12 @@ fn is_front(t: Triangle, v: Visible, direction: vec3<f32>) -> bool {
     return front;
 }
 
-// Interpolated normal, on the side of `geometric`; `geometric` itself if the mesh has no normals.
-fn shading_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
 #ifdef SHADING_NORMALS
+// Interpolated normal of the front, of any length; 0 if the mesh has no normals.
+fn interpolated_normal(v: Visible, weights: vec2<f32>) -> vec3<f32> {
     let first = v.row * scene.attribute_stride;
     if attributes[first] == 0u {
-        return geometric;
+        return vec3(0.0);
     }
     let a = unpack_octahedral(attributes[first]);
     let b = unpack_octahedral(attributes[first + 1u]);
@@ -135,6 +135,14 @@ fn shading_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<
 #ifdef INSTANCED
     n = transform_normal(world_to_object(v.instance), n);
 #endif
+    return n;
+}
+#endif
+
+// Interpolated normal, on the side of `geometric`; `geometric` itself if the mesh has no normals.
+fn shading_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
+#ifdef SHADING_NORMALS
+    var n = interpolated_normal(v, weights);
     let squared = dot(n, n);
     if squared <= 1e-12 {
         return geometric;

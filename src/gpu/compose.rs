@@ -44,6 +44,8 @@ const SHARED: &[(&str, &str)] = &[
     #[cfg(feature = "path-tracer")]
     ("surface", include_str!("../../shaders/shared/surface.wgsl")),
     #[cfg(feature = "path-tracer")]
+    ("normal_map", include_str!("../../shaders/shared/normal_map.wgsl")),
+    #[cfg(feature = "path-tracer")]
     ("material", include_str!("../../shaders/shared/material.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("light", include_str!("../../shaders/shared/light.wgsl")),

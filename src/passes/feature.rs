@@ -29,6 +29,8 @@ features! {
     FoldedImages,
     /// Interpolated normals.
     ShadingNormals,
+    /// Normals from images.
+    NormalMaps,
     /// Colours at the vertices.
     VertexColors,
     /// GGX lobe.

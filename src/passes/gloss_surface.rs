@@ -12,6 +12,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(Textures),
         knows(FoldedImages),
         knows(ShadingNormals),
+        knows(NormalMaps),
         knows(VertexColors),
         knows(Specular),
         knows(Gloss),

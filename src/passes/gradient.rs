@@ -18,6 +18,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(Textures).with(BlinnPhong),
         knows(FoldedImages).with(BlinnPhong),
         knows(ShadingNormals).with(BlinnPhong),
+        knows(NormalMaps).with(BlinnPhong),
         knows(VertexColors).with(BlinnPhong),
         knows(Specular).with(BlinnPhong),
     ]],

@@ -9,6 +9,7 @@ pub(super) const GEOMETRY: &[Known] = &[
     knows(Textures),
     knows(FoldedImages),
     knows(ShadingNormals),
+    knows(NormalMaps),
     knows(VertexColors),
     knows(AlphaMask),
     knows(AlphaBlend),

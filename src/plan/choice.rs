@@ -46,6 +46,11 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
             ["a mesh has normals", "no mesh has normals: cross products of edges replace them"],
         ),
         (
+            NormalMaps,
+            contents.normal_maps,
+            ["a material has a normal map", "no material has a normal map: no tangents"],
+        ),
+        (
             VertexColors,
             contents.vertex_colors,
             ["a mesh has colours at its vertices", "no mesh has colours at its vertices"],

@@ -11,6 +11,8 @@ pub struct SceneContents {
     pub folded_images: bool,
     /// Meshes have interpolated normals.
     pub shading_normals: bool,
+    /// Materials have normal maps, on meshes with tangents for them.
+    pub normal_maps: bool,
     /// Meshes have colours at their vertices.
     pub vertex_colors: bool,
     /// Some surface is not purely Lambertian.

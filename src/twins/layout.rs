@@ -10,10 +10,15 @@ pub(crate) type Field = (&'static str, usize);
 
 /// Asserts that a struct of the tracing shader has exactly these fields at these offsets, and this size.
 pub(crate) fn assert_layout(name: &str, fields: &[Field], size: usize) {
+    assert_layout_with(&[], name, fields, size);
+}
+
+/// Does the same as [`assert_layout`] for a struct that the shader has with these features alone.
+pub(crate) fn assert_layout_with(more: &[Feature], name: &str, fields: &[Field], size: usize) {
     use Feature::*;
     let features =
         Features::of(&[Textures, Lights, Emitters, PunctualLights, EnvironmentLight, DirectEmission, Specular]);
-    assert_layout_in(&trace::PASS, features, name, fields, size);
+    assert_layout_in(&trace::PASS, features.or(Features::of(more)), name, fields, size);
 }
 
 /// Does the same as [`assert_layout`] for another shader.

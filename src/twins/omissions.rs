@@ -14,6 +14,7 @@ const ALL: SceneContents = SceneContents {
     textures: true,
     folded_images: false,
     shading_normals: true,
+    normal_maps: true,
     vertex_colors: true,
     specular: true,
     matte: false,
@@ -113,10 +114,17 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "texel_radiance",
         "unpack_rgb",
     ][..];
-    let cases: [(SceneContents, &[&str]); 10] = [
+    let maps = ["load_normal_map", "mapped_normal", "reflecting_normal", "tangent_at", "unpack_tangent"];
+    let mut images = [&maps[..], images].concat();
+    images.sort_unstable();
+    let normals = ["interpolated_normal", "octahedral", "transform_normal", "unpack_octahedral"];
+    let mut normals = [&maps[..], &normals[..]].concat();
+    normals.sort_unstable();
+    let cases: [(SceneContents, &[&str]); 11] = [
         (SceneContents { instanced: false, ..ALL }, moving),
-        (SceneContents { textures: false, ..ALL }, images),
-        (SceneContents { shading_normals: false, ..ALL }, &["octahedral", "transform_normal", "unpack_octahedral"]),
+        (SceneContents { textures: false, normal_maps: false, ..ALL }, &images),
+        (SceneContents { shading_normals: false, normal_maps: false, ..ALL }, &normals),
+        (SceneContents { normal_maps: false, ..ALL }, &maps),
         (SceneContents { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
         (
             SceneContents { specular: false, ..ALL },
@@ -125,6 +133,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
                 "fresnel",
                 "of_lobe",
                 "pack_displacement",
+                "reflecting_normal",
                 "smith",
                 "specular_demodulation",
                 "specular_radiance_out",

@@ -32,20 +32,17 @@ fn every_field_of_a_material() {
 }
 
 #[test]
-fn normal_and_occlusion_maps_are_said_to_be_left_out() {
+fn occlusion_maps_are_said_to_be_left_out() {
     let mut gltf = Gltf::textured_triangle();
     gltf.push("textures", json!({"source": 0}));
     let view = gltf.view(&png(1, 1, [1; 4]));
     gltf.push("images", json!({"bufferView": view, "mimeType": "image/png"}));
     for _ in 0..2 {
-        gltf.push(
-            "materials",
-            json!({"alphaMode": "BLEND", "normalTexture": {"index": 0}, "occlusionTexture": {"index": 0}}),
-        );
+        gltf.push("materials", json!({"alphaMode": "BLEND", "occlusionTexture": {"index": 0}}));
     }
     let loaded = gltf.load().unwrap();
-    assert_warnings(&loaded, &[("materials[0]", "normal"), ("materials[0]", "occlusion")]);
-    assert_eq!(loaded.details.len(), 4, "both of both materials");
+    assert_warnings(&loaded, &[("materials[0]", "occlusion")]);
+    assert_eq!(loaded.details.len(), 2, "those of both materials");
     assert_eq!(loaded.scene.materials[0].alpha, Alpha::Blend);
     assert!(loaded.scene.images.is_empty(), "maps that are not read are not decoded");
 }
@@ -159,7 +156,6 @@ fn images_that_cannot_be_read_are_named() {
             ("images[3]", "not within the folder"),
             ("images[4]", "neither"),
             ("images[5]", "unused.jpg"),
-            ("materials[5]", "normal maps"),
         ],
     );
     assert!(loaded.scene.materials.iter().all(|material| material.emissive_texture.is_none()));

@@ -13,6 +13,7 @@ mod gltf_geometry;
 mod gltf_materials;
 mod gltf_mending;
 mod gltf_nodes;
+mod gltf_normal_maps;
 mod gltf_shapes;
 mod gltf_specular;
 mod image_io;

@@ -177,3 +177,30 @@ fn textures_need_texture_coordinates() {
     // Text that looks like a comment may be part of a name.
     assert!(loaded.scene.materials[0].base_color_texture.is_some());
 }
+
+#[test]
+fn normal_maps_and_heights() {
+    let folder = Folder::new();
+    folder.write("relief.png", picture(2, &[[128, 128, 255, 255], [200, 128, 230, 255]], false));
+    folder.write("heights.png", picture(2, &[[200, 200, 200, 255], [220, 220, 220, 255]], false));
+    let material = |mtl: &str| {
+        folder.write("test.mtl", format!("newmtl m\n{mtl}"));
+        let text = "mtllib test.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n";
+        load(folder.write("test.obj", text)).unwrap()
+    };
+    let map = |loaded: &Loaded| {
+        let material = &loaded.scene.materials[0];
+        material.normal_texture.map(|texture| (loaded.scene.images[texture.image].texels[1], material.normal_scale))
+    };
+    let relief = Some(([200, 128, 230, 255], 1.0));
+    for mtl in ["norm relief.png\n", "map_Bump relief.png\n", "bump heights.png\nnorm relief.png\n"] {
+        let loaded = material(mtl);
+        assert_eq!(map(&loaded), relief, "{mtl}");
+        assert_eq!(loaded.warnings.len(), usize::from(mtl.contains("heights")), "{mtl}");
+    }
+    assert_eq!(map(&material("map_bump -bm 0.25 -s 2 2 1 relief.png\n")), Some(([200, 128, 230, 255], 0.25)));
+    let heights = material("map_bump heights.png\n");
+    assert_warnings(&heights, &[("material \"m\"", "map_bump has heights, which are not read")]);
+    assert_eq!(map(&heights), None);
+    assert!(heights.scene.images.is_empty(), "an image that is not used is not kept");
+}

@@ -41,7 +41,7 @@ fn opacity() {
 #[test]
 fn statements_that_cannot_be_read_are_left_out() {
     let loaded = material(
-        "Kd spectral file.rfl\nKs 1 2\nNs\nKe nan 0 0\nmap_Kd\nmap_Ke -what 1 a.png\nbump b.png\nmap_Ks c.png\n",
+        "Kd spectral file.rfl\nKs 1 2\nNs\nKe nan 0 0\nmap_Kd\nmap_Ke -what 1 a.png\ndisp b.png\nmap_Ks c.png\n",
     );
     assert_warnings(
         &loaded,
@@ -52,7 +52,7 @@ fn statements_that_cannot_be_read_are_left_out() {
             ("test.mtl line 5", "Ke: NaN"),
             ("test.mtl line 6", "map_Kd: there is no file name"),
             ("test.mtl line 7", "the option -what"),
-            ("test.mtl line 8", "bump maps"),
+            ("test.mtl line 8", "displacement maps"),
             ("test.mtl material \"m\"", "\"c.png\" cannot be read"),
         ],
     );
@@ -100,11 +100,11 @@ fn illumination_models() {
 #[test]
 fn keywords_that_are_not_read_are_named_once() {
     let text = "Ka 1 1 1\nNi 1\nsharpness 60\nPs 0.0\nPc 0\naniso 0.000\nPcr 0.03\nanisor 0\nmap_Ka a.png\n\
-                bump a\nnorm b\nmap_Bump c\ndisp d\ndecal e\nrefl f\nmap_Ns g\nmap_Tr h\nPs 1\nPc 0.5\naniso 1\nsurprise\n";
+                disp d\ndecal e\nrefl f\nmap_Ns g\nmap_Tr h\nPs 1\nPc 0.5\naniso 1\nsurprise\n";
     let loaded = material(&format!("{text}newmtl n\n{text}"));
-    let named = ["bump", "norm", "map_Bump", "disp", "decal", "refl", "map_Ns", "map_Tr", "Ps", "Pc", "aniso"];
+    let named = ["disp", "decal", "refl", "map_Ns", "map_Tr", "Ps", "Pc", "aniso"];
     let mut expected: Vec<_> = named.iter().map(|keyword| ("test.mtl line", format!("{keyword}: "))).collect();
-    expected.push(("test.mtl line 22", "\"surprise\" is not known".into()));
+    expected.push(("test.mtl line 19", "\"surprise\" is not known".into()));
     let expected: Vec<_> = expected.iter().map(|(element, reason)| (*element, reason.as_str())).collect();
     assert_warnings(&loaded, &expected);
 }

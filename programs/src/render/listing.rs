@@ -62,6 +62,10 @@ fn surface(material: &Material, scene: &Scene) -> String {
         let maps = texture(material.specular_texture) + &texture(material.specular_color_texture);
         parts.push(format!("reflectance {r:.3} {g:.3} {b:.3}{maps}"));
     }
+    if material.normal_texture.is_some() {
+        let map = texture(material.normal_texture);
+        parts.push(format!("normal map{map}, scale {:.2}", material.normal_scale));
+    }
     if material.emissive != [0.0; 3] {
         let [r, g, b] = material.emissive;
         parts.push(format!("emits {r:.3} {g:.3} {b:.3}{}", texture(material.emissive_texture)));
@@ -81,6 +85,7 @@ fn surface(material: &Material, scene: &Scene) -> String {
 fn vertices(mesh: &Mesh) -> String {
     let arrays = [
         ("normals", mesh.normals.is_empty()),
+        ("tangents", mesh.tangents.is_empty()),
         ("TEXCOORD_0", mesh.uvs[0].is_empty()),
         ("TEXCOORD_1", mesh.uvs[1].is_empty()),
         ("colours", mesh.colors.is_empty()),

@@ -17,6 +17,11 @@ pub struct Material {
     pub roughness: f32,
     /// Green = roughness, blue = metallic (linear).
     pub metallic_roughness_texture: Option<Texture>,
+    /// Normals of the surface in the space of tangent, bitangent and normal (linear): each channel from 0…1 to −1…1, green upwards in the
+    /// image. Tangents are those of the mesh, or made by MikkTSpace.
+    pub normal_texture: Option<Texture>,
+    /// Factor on the first two coordinates of these normals.
+    pub normal_scale: f32,
     /// Radiance that the front face emits (both faces if `double_sided`), ≥ 0; multiplies the texture.
     pub emissive: [f32; 3],
     /// Emitted colour (sRGB).
@@ -51,6 +56,8 @@ impl Default for Material {
             metallic: 0.0,
             roughness: 1.0,
             metallic_roughness_texture: None,
+            normal_texture: None,
+            normal_scale: 1.0,
             emissive: [0.0; 3],
             emissive_texture: None,
             alpha: Alpha::Opaque,
@@ -76,6 +83,7 @@ impl Material {
         [
             ("base_color_texture", self.base_color_texture),
             ("metallic_roughness_texture", self.metallic_roughness_texture),
+            ("normal_texture", self.normal_texture),
             ("emissive_texture", self.emissive_texture),
             ("specular_texture", self.specular_texture),
             ("specular_color_texture", self.specular_color_texture),

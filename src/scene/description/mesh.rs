@@ -9,6 +9,9 @@ pub struct Mesh {
     pub positions: Vec<[f32; 3]>,
     /// Shading normals, one per vertex. If empty, each triangle has its geometric normal.
     pub normals: Vec<[f32; 3]>,
+    /// Tangents for normal maps, one per vertex: a direction, and ±1 for the bitangent `w · normal × tangent`, which points upwards in the
+    /// image. If empty, MikkTSpace makes them. Meshes without normals ignore them.
+    pub tangents: Vec<[f32; 4]>,
     /// Texture coordinates of set 0 and set 1, each one per vertex or empty.
     pub uvs: [Vec<[f32; 2]>; 2],
     /// Linear colour and opacity, each 0…1, one per vertex; white if empty. They multiply the base colour.

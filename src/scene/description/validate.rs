@@ -43,6 +43,7 @@ impl Scene {
         let vertices = mesh.positions.len();
         let optional = [
             ("normals", mesh.normals.len()),
+            ("tangents", mesh.tangents.len()),
             ("uvs[0]", mesh.uvs[0].len()),
             ("uvs[1]", mesh.uvs[1].len()),
             ("colors", mesh.colors.len()),
@@ -56,6 +57,7 @@ impl Scene {
         }
         all_finite(&mesh.positions, || format!("{element}.positions"))?;
         all_finite(&mesh.normals, || format!("{element}.normals"))?;
+        all_finite(&mesh.tangents, || format!("{element}.tangents"))?;
         all_finite(&mesh.uvs[0], || format!("{element}.uvs[0]"))?;
         all_finite(&mesh.uvs[1], || format!("{element}.uvs[1]"))?;
         for (vertex, color) in mesh.colors.iter().enumerate() {
@@ -79,6 +81,8 @@ impl Scene {
             unit(channel, || format!("{element}.specular"))?;
         }
         unit(material.specular_edge, || format!("{element}.specular_edge"))?;
+        let scale = material.normal_scale;
+        rule(scale.is_finite(), || format!("{element}.normal_scale"), || format!("{scale} is not finite"))?;
         non_negative(&material.emissive, || format!("{element}.emissive"))?;
         if let Alpha::Mask(cutoff) = material.alpha {
             non_negative(&[cutoff], || format!("{element}.alpha"))?;

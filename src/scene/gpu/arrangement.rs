@@ -6,7 +6,7 @@ use super::header::Header;
 use super::light::analytic::AnalyticLight;
 use super::light::table::Lights;
 use super::memory::folded::Texel;
-use super::surface::materials::{GpuMaterial, materials};
+use super::surface::materials::materials;
 use super::surface::places::Place;
 use super::visible::Visible;
 use crate::scene::description::{Material, Pose, SceneError};
@@ -91,7 +91,7 @@ impl Arrangement {
         instances::rows_of(&self.instances, pose, self.centre)
     }
 
-    pub fn materials(&self, pose: &Pose) -> Vec<GpuMaterial> {
+    pub fn materials(&self, pose: &Pose) -> Vec<Texel> {
         materials(&self.materials, &pose.emission, &self.images)
     }
 

@@ -14,7 +14,6 @@ use super::light::sky::SkyTable;
 use super::light::table::LightList;
 use super::memory::capacity::Capacity;
 use super::memory::folded::Texel;
-use super::surface::materials::GpuMaterial;
 use super::surface::places::{are_folded, places};
 use super::tree;
 use crate::plan::SceneContents;
@@ -38,7 +37,8 @@ pub(crate) struct Assembly<'a> {
     /// Lookup table, top level and trees, see [`Sections`].
     pub geometry: Vec<Texel>,
     pub attributes: Vec<u32>,
-    pub materials: Vec<GpuMaterial>,
+    /// Materials and their extensions.
+    pub materials: Vec<Texel>,
     pub analytic_lights: Vec<AnalyticLight>,
     pub facets: Option<Facets>,
     pub images: &'a [Image],

@@ -18,6 +18,7 @@ pub(crate) fn contents(scene: &Scene, layout: Layout) -> SceneContents {
     SceneContents {
         textures: used().any(|m| m.textures().next().is_some()),
         shading_normals: layout.normals,
+        normal_maps: layout.tangents && used().any(|m| m.normal_texture.is_some()),
         vertex_colors: layout.color.is_some(),
         specular: used().any(|m| !m.unlit && (m.specular != [0.0; 3] || m.metallic > 0.0)),
         alpha_blend: used().any(|m| m.alpha == Alpha::Blend),

@@ -7,10 +7,9 @@ use super::light::radiance::pack;
 use super::light::record::GpuLight;
 use super::light::sky::SkyTable;
 use super::memory::buffers::{buffer, storage};
-use super::memory::folded;
+use super::memory::folded::{self, Texel};
 use super::memory::pieces::{self, PIECE, Writer};
 use super::surface::images::Images;
-use super::surface::materials::GpuMaterial;
 use crate::passes::SceneBinding;
 use crate::scene::description::Environment;
 use bytemuck::Pod;
@@ -70,8 +69,8 @@ impl Buffers {
     }
 
     /// Records the replacement of the materials.
-    pub fn replace_materials(&self, device: &Device, encoder: &mut CommandEncoder, materials: &[GpuMaterial]) {
-        folded::replace(device, encoder, &self.materials.0, 0, folded::texels(materials));
+    pub fn replace_materials(&self, device: &Device, encoder: &mut CommandEncoder, materials: &[Texel]) {
+        folded::replace(device, encoder, &self.materials.0, 0, materials);
     }
 
     /// Records the replacement of the lights.

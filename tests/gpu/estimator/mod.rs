@@ -5,6 +5,7 @@ mod area;
 mod furnace;
 mod large;
 mod materials;
+mod normals;
 mod paths;
 mod punctual;
 

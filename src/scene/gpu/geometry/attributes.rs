@@ -1,15 +1,18 @@
-//! Normals, texture coordinates and colours of triangles.
+//! Normals, tangents, texture coordinates and colours of triangles.
 
 use super::groups::Face;
+use super::tangents::{Tangents, mapped};
 use crate::scene::description::{Material, Mesh, Scene};
 use glam::{Vec2, Vec3};
 
-/// Places of a triangle's words in the attributes: three normals, then three (u, v) per set, then three colours, each only if the
-/// scene needs it.
+/// Places of a triangle's words in the attributes: three normals, three tangents, then three (u, v) per set, then three colours, each
+/// only if the scene needs it.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Layout {
     pub stride: usize,
     pub normals: bool,
+    /// True if there are tangents, and so normals.
+    pub tangents: bool,
     pub uv: [Option<usize>; 2],
     /// Four numbers of 16 bits a corner.
     pub color: Option<usize>,
@@ -22,8 +25,10 @@ impl Layout {
             let reads = |m: &Material| m.textures().any(|(_, texture)| texture.uv_set == set);
             scene.meshes.iter().any(|mesh| reads(&scene.materials[mesh.material]))
         };
-        let mut layout = Layout { normals: scene.meshes.iter().any(|m| !m.normals.is_empty()), ..Default::default() };
-        layout.stride = if layout.normals { 3 } else { 0 };
+        let tangents = scene.meshes.iter().any(|mesh| mapped(mesh, &scene.materials[mesh.material]).is_some());
+        let normals = tangents || scene.meshes.iter().any(|mesh| !mesh.normals.is_empty());
+        let stride = 3 * usize::from(normals) + 3 * usize::from(tangents);
+        let mut layout = Layout { stride, normals, tangents, ..Default::default() };
         for set in 0..2 {
             if used(set) {
                 layout.uv[set] = Some(layout.stride);
@@ -37,17 +42,31 @@ impl Layout {
         layout
     }
 
-    /// Appends the words of a face.
-    pub fn push(&self, attributes: &mut Vec<u32>, mesh: &Mesh, face: &Face) {
-        let [a, b, c] = mesh.triangles[face.triangle];
-        let corners = if face.placement.determinant() < 0.0 { [a, c, b] } else { [a, b, c] };
+    /// Appends the words of a face. `tangents` are those of its mesh, if it has a normal map.
+    pub fn push(&self, attributes: &mut Vec<u32>, mesh: &Mesh, tangents: Option<&Tangents>, face: &Face) {
+        let mirrored = face.placement.determinant() < 0.0;
+        let in_order = |[a, b, c]: [_; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+        let corners = in_order(mesh.triangles[face.triangle]);
         if self.normals {
             // Normals transform by the transpose of the inverse.
             let map = face.placement.inverse().transpose().as_mat3();
+            // Images of normals need one to be relative to.
+            let flat = if tangents.is_some() { face.area_normal() } else { Vec3::ZERO };
             for corner in corners {
-                let normal = mesh.normals.get(corner as usize).map_or(Vec3::ZERO, |&n| map * Vec3::from(n));
+                let normal = mesh.normals.get(corner as usize).map_or(flat, |&n| map * Vec3::from(n));
                 attributes.push(normal.try_normalize().map_or(0, pack_octahedral));
             }
+        }
+        if self.tangents {
+            let map = face.placement.as_mat3();
+            let packed = tangents.and_then(|tangents| {
+                let [a, b, c] = tangents[face.triangle].map(|tangent| {
+                    let direction = (map * tangent.truncate()).try_normalize()?;
+                    Some(pack_tangent(direction, (tangent.w < 0.0) != mirrored))
+                });
+                Some(in_order([a?, b?, c?]))
+            });
+            attributes.extend(packed.unwrap_or([0; 3]));
         }
         for (set, offset) in self.uv.iter().enumerate() {
             if offset.is_some() {
@@ -66,13 +85,24 @@ impl Layout {
     }
 }
 
-/// A unit vector as two 16-bit numbers on the unfolded octahedron (Meyer et al. 2010). Never 0, which means no normal.
+/// A unit vector as two 16-bit numbers on the unfolded octahedron. Never 0, which means no normal.
 fn pack_octahedral(n: Vec3) -> u32 {
+    let q = (unfolded(n) * 65535.0).round().clamp(Vec2::ONE, Vec2::splat(65535.0));
+    q.x as u32 | (q.y as u32) << 16
+}
+
+/// A unit tangent as numbers of 16 and 15 bits, and a bit that is set if w is −1. Never 0, which means no tangent.
+fn pack_tangent(t: Vec3, negative: bool) -> u32 {
+    let q = (unfolded(t) * Vec2::new(65535.0, 32767.0)).round().max(Vec2::ONE);
+    q.x as u32 | (q.y as u32) << 16 | u32::from(negative) << 31
+}
+
+/// The point of the unfolded octahedron at which a unit vector lies, 0…1 (Meyer et al. 2010).
+fn unfolded(n: Vec3) -> Vec2 {
     let p = Vec2::new(n.x, n.y) / (n.x.abs() + n.y.abs() + n.z.abs());
     let sign = Vec2::new(1.0_f32.copysign(p.x), 1.0_f32.copysign(p.y));
     let folded = if n.z < 0.0 { (1.0 - Vec2::new(p.y, p.x).abs()) * sign } else { p };
-    let q = ((folded * 0.5 + 0.5) * 65535.0).round().clamp(Vec2::ONE, Vec2::splat(65535.0));
-    q.x as u32 | (q.y as u32) << 16
+    folded * 0.5 + 0.5
 }
 
 /// Two numbers within 0…1 as `unpack2x16unorm` of WGSL reads them.

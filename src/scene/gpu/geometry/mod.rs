@@ -7,3 +7,4 @@ pub(crate) mod groups;
 pub(crate) mod instances;
 pub(crate) mod rows;
 pub(crate) mod sections;
+mod tangents;

@@ -2,6 +2,7 @@
 
 use super::attributes::Layout;
 use super::groups::{Face, Group};
+use super::tangents::{self, Tangents};
 use crate::scene::description::Scene;
 use crate::scene::gpu::memory::folded::Texel;
 use crate::scene::gpu::tree::{self, Quantization, Tree};
@@ -17,6 +18,8 @@ pub(crate) struct Geometry {
     /// Words laid out by [`Layout`].
     pub attributes: Vec<u32>,
     pub layout: Layout,
+    /// The tangents of each mesh that has a normal map.
+    tangents: Vec<Option<Tangents>>,
     /// Depth of the deepest tree.
     pub depth: u32,
 }
@@ -34,7 +37,8 @@ pub(crate) struct Built {
 impl Geometry {
     pub fn new(scene: &Scene, first_node: u32) -> Self {
         let layout = Layout::of(scene);
-        Self { first_node, nodes: Vec::new(), rows: Vec::new(), attributes: Vec::new(), layout, depth: 0 }
+        let tangents = scene.meshes.iter().map(|mesh| tangents::of(mesh, &scene.materials[mesh.material])).collect();
+        Self { first_node, nodes: Vec::new(), rows: Vec::new(), attributes: Vec::new(), layout, tangents, depth: 0 }
     }
 
     /// Builds the group's tree and appends its rows in the order of the leaves.
@@ -54,7 +58,8 @@ impl Geometry {
             }
             let [a, b, c] = face.corners;
             self.rows.push([texel(a, material as u32), texel(b, number), texel(c, 0)]);
-            self.layout.push(&mut self.attributes, &scene.meshes[face.mesh], &face);
+            let tangents = self.tangents[face.mesh].as_ref();
+            self.layout.push(&mut self.attributes, &scene.meshes[face.mesh], tangents, &face);
         }
         self.nodes.extend(nodes);
         self.depth = self.depth.max(depth);

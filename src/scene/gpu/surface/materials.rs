@@ -3,6 +3,7 @@
 use super::places::Place;
 use super::texture_use::{GpuTexture, texture_use};
 use crate::scene::description::{Alpha, Material};
+use crate::scene::gpu::memory::folded::{Texel, texels};
 use bytemuck::{Pod, Zeroable};
 
 /// `Material` of scene.wgsl.
@@ -17,7 +18,7 @@ pub(crate) struct GpuMaterial {
     cutoff: f32,
     specular_edge: f32,
     specular: [f32; 3],
-    pad: u32,
+    extension: u32,
     base_color_texture: GpuTexture,
     metallic_roughness_texture: GpuTexture,
     emissive_texture: GpuTexture,
@@ -25,49 +26,106 @@ pub(crate) struct GpuMaterial {
     specular_color_texture: GpuTexture,
 }
 
-/// The materials with the emission of a pose.
-pub(crate) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &[Place]) -> Vec<GpuMaterial> {
+/// `NormalMap` of scene.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub(crate) struct GpuNormalMap {
+    texture: GpuTexture,
+    scale: f32,
+    pad: [u32; 3],
+}
+
+/// Bit of `flags` of a material whose extension has a normal map.
+const NORMAL_MAP: u32 = 1 << 4;
+
+/// Greatest scale of a normal map. Beyond, all normals lie in the surface, and their squares may be infinite.
+const MOST_SCALE: f32 = 1e6;
+
+/// The materials with the emission of a pose, and after them the extensions of those that have one. A scene whose materials are plain
+/// has no extensions.
+pub(crate) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &[Place]) -> Vec<Texel> {
+    let mut extensions: Vec<Texel> = Vec::new();
+    let first = materials.len() * size_of::<GpuMaterial>() / size_of::<Texel>();
+    let mut records: Vec<GpuMaterial> = Vec::with_capacity(materials.len());
+    for (m, &factor) in materials.iter().zip(emission) {
+        let mut record = plain(m, factor, images);
+        if m.normal_texture.is_some() {
+            record.flags |= NORMAL_MAP;
+            record.extension = (first + extensions.len()) as u32;
+            extensions.extend_from_slice(texels(&[normal_map(m, images)]));
+        }
+        records.push(record);
+    }
+    let mut all = texels(&records).to_vec();
+    all.append(&mut extensions);
+    all
+}
+
+fn normal_map(material: &Material, images: &[Place]) -> GpuNormalMap {
+    let scale = material.normal_scale.clamp(-MOST_SCALE, MOST_SCALE);
+    GpuNormalMap { texture: texture_use(material.normal_texture, images), scale, pad: [0; 3] }
+}
+
+/// A material without its extension.
+fn plain(m: &Material, emission: [f32; 3], images: &[Place]) -> GpuMaterial {
     let texture = |t| texture_use(t, images);
-    materials
-        .iter()
-        .zip(emission)
-        .map(|(m, factor)| GpuMaterial {
-            base_color: m.base_color,
-            emissive: [0, 1, 2].map(|c| m.emissive[c] * factor[c]),
-            flags: u32::from(m.double_sided)
-                | u32::from(m.unlit) << 1
-                | u32::from(m.culled) << 2
-                | u32::from(m.alpha == Alpha::Blend) << 3,
-            metallic: m.metallic,
-            roughness: m.roughness,
-            cutoff: match m.alpha {
-                Alpha::Opaque => 0.0,
-                Alpha::Mask(cutoff) => cutoff,
-                // 0 would skip the test.
-                Alpha::Blend => 0.5,
-            },
-            specular_edge: m.specular_edge,
-            specular: m.specular,
-            pad: 0,
-            base_color_texture: texture(m.base_color_texture),
-            metallic_roughness_texture: texture(m.metallic_roughness_texture),
-            emissive_texture: texture(m.emissive_texture),
-            specular_texture: texture(m.specular_texture),
-            specular_color_texture: texture(m.specular_color_texture),
-        })
-        .collect()
+    GpuMaterial {
+        base_color: m.base_color,
+        emissive: [0, 1, 2].map(|c| m.emissive[c] * emission[c]),
+        flags: u32::from(m.double_sided)
+            | u32::from(m.unlit) << 1
+            | u32::from(m.culled) << 2
+            | u32::from(m.alpha == Alpha::Blend) << 3,
+        metallic: m.metallic,
+        roughness: m.roughness,
+        cutoff: match m.alpha {
+            Alpha::Opaque => 0.0,
+            Alpha::Mask(cutoff) => cutoff,
+            // 0 would skip the test.
+            Alpha::Blend => 0.5,
+        },
+        specular_edge: m.specular_edge,
+        specular: m.specular,
+        extension: 0,
+        base_color_texture: texture(m.base_color_texture),
+        metallic_roughness_texture: texture(m.metallic_roughness_texture),
+        emissive_texture: texture(m.emissive_texture),
+        specular_texture: texture(m.specular_texture),
+        specular_color_texture: texture(m.specular_color_texture),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::twins::layout::{assert_layout, fields};
+    use crate::plan::Feature;
+    use crate::scene::description::Texture;
+    use crate::twins::layout::{assert_layout_with, fields};
 
     #[test]
     fn a_material_lies_where_the_shaders_read_it() {
         let material = fields!(GpuMaterial: base_color, emissive, flags, metallic, roughness, cutoff,
-            specular_edge, specular, base_color_texture, metallic_roughness_texture, emissive_texture,
+            specular_edge, specular, extension, base_color_texture, metallic_roughness_texture, emissive_texture,
             specular_texture, specular_color_texture);
-        assert_layout("Material", material, size_of::<GpuMaterial>());
+        let features = [Feature::NormalMaps, Feature::ShadingNormals];
+        assert_layout_with(&features, "Material", material, size_of::<GpuMaterial>());
+        let map = fields!(GpuNormalMap: texture, scale);
+        assert_layout_with(&features, "NormalMap", map, size_of::<GpuNormalMap>());
+    }
+
+    #[test]
+    fn extensions_follow_the_materials_that_have_one() {
+        let place = Place { first: 7, width: 4, height: 2 };
+        let mapped = Material { normal_texture: Some(Texture::new(0)), normal_scale: 0.5, ..Material::default() };
+        let emission = [[1.0; 3]; 3];
+        let record = size_of::<GpuMaterial>() / size_of::<Texel>();
+        let all = materials(&[Material::default(), mapped.clone(), mapped], &emission, &[place]);
+        assert_eq!(all.len(), 3 * record + 2 * 4);
+        let extension = |material: usize| all[material * record + 3][3] as usize;
+        assert_eq!([0, 1, 2].map(extension), [0, 3 * record, 3 * record + 4]);
+        assert_eq!(all[extension(2)], [7, 4, 2, 1 << 31]);
+        assert_eq!(f32::from_bits(all[extension(2) + 3][0]), 0.5);
+        // Plain materials take no more than their records.
+        assert_eq!(materials(&[Material::default(), Material::default()], &emission[..2], &[]).len(), 2 * record);
     }
 }

@@ -55,6 +55,18 @@ impl<'a> Vertices<'a> {
         }
     }
 
+    /// The tangents of the file, or an empty list.
+    pub fn tangents(&self, report: &mut Report) -> Vec<[f32; 4]> {
+        let Some(accessor) = self.attribute(Semantic::Tangents) else { return Vec::new() };
+        match self.open(accessor, Type::Vec4, REAL, &format!("{}.attributes.TANGENT", self.element)) {
+            Ok(elements) => gather(&elements, self.kept),
+            Err(fault) => {
+                report.replace(fault, "tangents are made from the texture coordinates");
+                Vec::new()
+            }
+        }
+    }
+
     /// Texture coordinates of a set, or an empty list.
     pub fn uvs(&self, set: u32, report: &mut Report) -> Vec<[f32; 2]> {
         let Some(accessor) = self.attribute(Semantic::TexCoords(set)) else { return Vec::new() };
@@ -122,7 +134,6 @@ pub(super) fn gather<const N: usize>(elements: &Elements, kept: &[u32]) -> Vec<[
 pub(super) fn warn_unread(primitive: &Primitive, element: &str, report: &mut Report) {
     for semantic in primitive.attributes.keys() {
         let reason = match semantic {
-            Checked::Valid(Semantic::Tangents) => "tangents are not read",
             Checked::Valid(Semantic::TexCoords(2..)) => "texture coordinates beyond TEXCOORD_1 are not read",
             Checked::Valid(Semantic::Colors(1..)) => "colours beyond COLOR_0 are not read",
             Checked::Invalid => "an attribute of a name that glTF does not have is not read",

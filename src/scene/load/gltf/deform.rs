@@ -7,7 +7,7 @@ use glam::{DMat4, Mat3, Mat4, Vec3, Vec4};
 use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
-use gltf::json::{Index, Mesh as MeshSource, Skin as SkinSource};
+use gltf::json::{Accessor, Index, Mesh as MeshSource, Skin as SkinSource};
 
 use super::accessor::{Elements, REAL};
 use super::attributes::Vertices;
@@ -121,19 +121,23 @@ fn morph(vertices: &Vertices<'_>, number: usize, weight: f32, mesh: &mut Mesh, r
     let targets = vertices.primitive.targets.as_deref().unwrap_or_default();
     let Some(target) = targets.get(number) else { return };
     let element = format!("{}.targets[{number}]", vertices.element);
-    for (name, accessor, moved) in
-        [("POSITION", target.positions, &mut mesh.positions), ("NORMAL", target.normals, &mut mesh.normals)]
-    {
-        let Some(accessor) = accessor else { continue };
+    let mut add = |name: &str, accessor: Option<Index<Accessor>>, moved: &mut dyn Iterator<Item = &mut [f32]>| {
+        let Some(accessor) = accessor else { return };
         match vertices.open(accessor, Type::Vec3, REAL, &format!("{element}.{name}")) {
             Ok(offsets) => {
                 for (&vertex, moved) in vertices.kept.iter().zip(moved) {
                     let offset: [f32; 3] = offsets.vector(vertex as usize);
-                    *moved = [0, 1, 2].map(|axis| moved[axis] + weight * offset[axis]);
+                    moved.iter_mut().zip(offset).for_each(|(coordinate, offset)| *coordinate += weight * offset);
                 }
             }
             Err(fault) => report.replace(fault, "it is left out"),
         }
+    };
+    add("POSITION", target.positions, &mut mesh.positions.iter_mut().map(|position| &mut position[..]));
+    add("NORMAL", target.normals, &mut mesh.normals.iter_mut().map(|normal| &mut normal[..]));
+    if !mesh.tangents.is_empty() {
+        // w stays.
+        add("TANGENT", target.tangents, &mut mesh.tangents.iter_mut().map(|tangent| &mut tangent[..3]));
     }
 }
 
@@ -208,10 +212,16 @@ impl<'a> Influences<'a> {
             if let Some(position) = mesh.positions.get_mut(place) {
                 *position = matrix.transform_point3((*position).into()).to_array();
             }
+            let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(Vec4::truncate);
+            let sign = Mat3::from_cols(x, y, z).determinant().signum();
+            if let Some(tangent) = mesh.tangents.get_mut(place) {
+                let [right, up, front, w] = *tangent;
+                let direction = (x * right + y * up + z * front).normalize_or_zero();
+                // The bitangent is moved like the tangent, but joints that mirror turn the cross product over.
+                *tangent = direction.extend(w * sign).to_array();
+            }
             if let Some(normal) = mesh.normals.get_mut(place) {
                 // Normals transform by the transpose of the inverse. Its scale does not matter here, so the cofactors will do.
-                let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(Vec4::truncate);
-                let sign = Mat3::from_cols(x, y, z).determinant().signum();
                 let cofactors = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign;
                 // Joints in centimetres make normals short, and one far from length 1 would count as having no direction.
                 *normal = (cofactors * Vec3::from(*normal)).normalize_or_zero().to_array();

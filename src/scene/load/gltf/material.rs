@@ -1,14 +1,17 @@
 //! Metallic-roughness materials.
 
-use gltf::json::Material as MaterialSource;
+use gltf::json::extensions::texture::{Info as InfoExtensions, TextureTransform};
 use gltf::json::material::AlphaMode;
+use gltf::json::texture::Info;
 use gltf::json::validation::Checked;
+use gltf::json::{Extras, Material as MaterialSource};
+use serde::Deserialize;
 
 use super::glossiness;
 use super::image::Images;
 use super::source::Source;
 use super::transmission;
-use crate::scene::description::{Alpha, Material, Scene};
+use crate::scene::description::{Alpha, Material, Scene, Texture};
 use crate::scene::load::common::report::Report;
 
 /// Index of refraction of the dielectrics of glTF 2.0, unless KHR_materials_ior gives another.
@@ -38,12 +41,10 @@ fn reflectance(ior: f32) -> f32 {
 
 fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mut Report) -> Material {
     let extensions = source.extensions.as_ref();
-    if source.normal_texture.is_some() {
-        report.warn_once(element, "normal maps are not read");
-    }
     if source.occlusion_texture.is_some() {
         report.warn_once(element, "occlusion maps are not read; the path tracer finds occlusion itself");
     }
+    let (normal_texture, normal_scale) = normal_map(source, element, images, report);
     let emissive_texture = images.texture(&source.emissive_texture, &format!("{element}.emissiveTexture"), report);
     let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
@@ -53,6 +54,8 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
         name: source.name.clone().unwrap_or_default(),
         emissive: report.clamp_radiance(emissive, || format!("{element}.emissiveFactor")),
         emissive_texture,
+        normal_texture,
+        normal_scale,
         alpha: alpha(source, element, report),
         double_sided: source.double_sided,
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
@@ -71,6 +74,34 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
             transmission::apply(source, material, element, images, report)
         }
     }
+}
+
+/// The normal map and its scale.
+fn normal_map(
+    source: &MaterialSource,
+    element: &str,
+    images: &mut Images,
+    report: &mut Report,
+) -> (Option<Texture>, f32) {
+    let Some(map) = &source.normal_texture else { return (None, 1.0) };
+    let user = format!("{element}.normalTexture");
+    let mut info = Info { index: map.index, tex_coord: map.tex_coord, extensions: None, extras: Extras::default() };
+    // The JSON reader knows this extension in other textures only.
+    let transform = map.extensions.as_ref().and_then(|extensions| extensions.others.get("KHR_texture_transform"));
+    if let Some(transform) = transform {
+        match TextureTransform::deserialize(transform) {
+            Ok(transform) => {
+                info.extensions = Some(InfoExtensions { texture_transform: Some(transform), ..Default::default() });
+            }
+            Err(error) => report.warn(format!("{user}.KHR_texture_transform"), format!("{error}; it is left out")),
+        }
+    }
+    let texture = images.texture(&Some(info), &user, report);
+    if map.scale.is_finite() {
+        return (texture, map.scale);
+    }
+    report.warn(format!("{user}.scale"), format!("{} is not finite; 1 is used", map.scale));
+    (texture, 1.0)
 }
 
 fn metallic_roughness(

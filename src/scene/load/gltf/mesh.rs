@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use glam::Vec3;
 use gltf::json::accessor::Type;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
@@ -113,6 +114,12 @@ impl<'a> Meshes<'a> {
         let mut mesh = Mesh { triangles: renumbered(triangles, &kept), ..Mesh::default() };
         mesh.positions = attributes::gather(&positions, &kept);
         mesh.normals = vertices.normals(report);
+        mesh.material = self.material(primitive, element, report, materials);
+        let material = materials.get(mesh.material);
+        // A mesh without normals is flat, so that its tangents have no meaning.
+        if !mesh.normals.is_empty() && material.is_some_and(|material| material.normal_texture.is_some()) {
+            mesh.tangents = vertices.tangents(report);
+        }
         for set in 0..mesh.uvs.len() {
             mesh.uvs[set] = vertices.uvs(set as u32, report);
         }
@@ -127,8 +134,13 @@ impl<'a> Meshes<'a> {
                 report.warn(format!("{element}.attributes.NORMAL"), reason);
             }
         }
-        mesh.material = self.material(primitive, element, report, materials);
-        if let Some(material) = materials.get(mesh.material) {
+        let broken = mesh.tangents.iter().filter(|tangent| !is_direction(**tangent)).count();
+        if broken > 0 {
+            mesh.tangents = Vec::new();
+            let reason = format!("{broken} tangents have no direction; all are made from the texture coordinates");
+            report.warn(format!("{element}.attributes.TANGENT"), reason);
+        }
+        if let Some(material) = material {
             attributes::warn_missing_uvs(material, &mesh, element, report);
         }
         Ok(Some(mesh))
@@ -190,6 +202,11 @@ impl<'a> Meshes<'a> {
             materials.len() - 1
         })
     }
+}
+
+/// True if a tangent has a direction and is finite.
+fn is_direction([x, y, z, w]: [f32; 4]) -> bool {
+    w.is_finite() && Vec3::new(x, y, z).try_normalize().is_some()
 }
 
 /// The triangles between corners.

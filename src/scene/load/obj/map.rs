@@ -19,6 +19,8 @@ pub(super) struct Map {
     pub scale: [f32; 2],
     pub offset: [f32; 2],
     pub clamp: bool,
+    /// Factor on heights or on the slopes of normals (`-bm`).
+    pub bump: f32,
     /// The channel that `-imfchan` selects.
     pub channel: Option<Channel>,
     /// True if the statement has an option that changes texels and is not read (`-mm`, `-t`).
@@ -32,6 +34,7 @@ impl Map {
             scale: [1.0; 2],
             offset: [0.0; 2],
             clamp: false,
+            bump: 1.0,
             channel: None,
             unread: false,
         };
@@ -52,7 +55,8 @@ impl Map {
                     let [base, gain] = [word(&mut rest), word(&mut rest)].map(|word| number(word, commas));
                     map.unread |= base != Ok(0.0) || gain != Ok(1.0);
                 }
-                "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-texres" | "-type" | "-colorspace" => {
+                "-bm" => map.bump = number(word(&mut rest), commas).unwrap_or(1.0),
+                "-blendu" | "-blendv" | "-boost" | "-cc" | "-texres" | "-type" | "-colorspace" => {
                     word(&mut rest);
                 }
                 _ => return Err(format!("the option {option} is not known")),

@@ -10,6 +10,8 @@
 //! - `map_d` is opacity for each texel. If it is the same file as `map_Kd` and that has an alpha channel, it is this channel. Otherwise it
 //!   is the luminance, or the alpha of an image of one colour. `-imfchan` takes precedence over both. The alpha channel of `map_Kd`
 //!   alone has no meaning.
+//! - `norm` is a normal map. So is `map_bump` if its image is one, because Blender and others write normal maps there; heights are not
+//!   read. `-bm` scales the slopes.
 
 use super::map::{Channel, Map};
 use super::source::{Source, Texture as Kind};
@@ -52,7 +54,8 @@ impl Source {
         let element = &format!("{file} material \"{}\"", shortened(name));
         let mut get = |kind: Kind, report: &mut Report| {
             let map = self.maps.get(&kind)?;
-            let unread = matches!(kind, Kind::Diffuse | Kind::Specular | Kind::Emissive) && map.channel.is_some();
+            let colored = matches!(kind, Kind::Diffuse | Kind::Specular | Kind::Emissive | Kind::Normal);
+            let unread = colored && map.channel.is_some();
             if map.unread || unread {
                 report.warn_once(element, "the options -mm and -t, and -imfchan of a colour, are not read");
             }
@@ -63,6 +66,7 @@ impl Source {
         let emissive_map = get(Kind::Emissive, report);
         let opacity_map = get(Kind::Opacity, report);
         let surface_maps = [get(Kind::Roughness, report), get(Kind::Metallic, report)];
+        let normal_maps = [get(Kind::Normal, report), get(Kind::Bump, report)];
 
         let model = self.model(element, report);
         let physical = self.roughness.is_some()
@@ -92,6 +96,7 @@ impl Source {
         let emissive = emissive.filter(|&emissive| strongest(emissive) > 0.0);
         let emissive = emissive.unwrap_or([if emissive_texture.is_some() { 1.0 } else { 0.0 }; 3]);
         let metallic_roughness_texture = surface(surface_maps, textures, element, report);
+        let normal_map = normal_map(normal_maps, textures, element, report);
         let [rough, metallic] = surface_maps.map(|map| map.is_some() && metallic_roughness_texture.is_some());
         let unit = |value: f32, report: &mut Report| report.clamp_unit(value, || element.clone());
         let material = Material {
@@ -108,6 +113,8 @@ impl Source {
                 None => self.shininess.map_or(1.0, roughness),
             },
             metallic_roughness_texture,
+            normal_texture: normal_map.map(|(raw, map)| textures.plain(raw, map)),
+            normal_scale: normal_map.map_or(1.0, |(_, map)| map.bump),
             emissive,
             emissive_texture,
             alpha: opacity.alpha,
@@ -220,6 +227,23 @@ impl Source {
             _ => material,
         }
     }
+}
+
+/// The normal map of `norm`, or of `map_bump` if that is one.
+fn normal_map<'a>(
+    [normal, bump]: [Option<(Raw, &'a Map)>; 2],
+    textures: &Textures<'_>,
+    element: &str,
+    report: &mut Report,
+) -> Option<(Raw, &'a Map)> {
+    let bump = bump.filter(|&(raw, _)| {
+        let mapped = textures.is_normal_map(raw);
+        if !mapped {
+            report.warn_once(element, "map_bump has heights, which are not read; normal maps are");
+        }
+        mapped
+    });
+    normal.or(bump)
 }
 
 /// Roughness and metalness in one texture.

@@ -37,6 +37,10 @@ pub(super) enum Texture {
     Opacity,
     Roughness,
     Metallic,
+    /// A normal map.
+    Normal,
+    /// Heights, or a normal map: exporters write both.
+    Bump,
 }
 
 /// Reads a library.
@@ -96,8 +100,6 @@ impl Reader<'_> {
         let element = self.element(statement.line);
         let named = shortened(statement.keyword);
         let what = match keyword {
-            "bump" | "map_bump" => "bump maps are",
-            "norm" | "map_norm" | "map_kn" => "normal maps are",
             "disp" | "map_disp" => "displacement maps are",
             "refl" | "map_refl" => "reflection maps are",
             "map_ns" => "maps of the shininess are",
@@ -144,6 +146,8 @@ impl Source {
             "map_d" => map(Texture::Opacity, commas)?,
             "map_pr" => map(Texture::Roughness, commas)?,
             "map_pm" => map(Texture::Metallic, commas)?,
+            "norm" | "map_norm" | "map_kn" => map(Texture::Normal, commas)?,
+            "bump" | "map_bump" => map(Texture::Bump, commas)?,
             // The path tracer computes ambient light itself. The others are about filtering, or about statements that are not read.
             "ka" | "map_ka" | "sharpness" | "map_aat" | "pcr" | "anisor" => {}
             // Exporters write these for all materials; 0 says that there is none.

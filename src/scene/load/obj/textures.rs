@@ -167,6 +167,16 @@ impl<'a> Textures<'a> {
         self.image(raw).texels.iter().all(|[r, g, b, _]| r == g && g == b)
     }
 
+    /// True if the texels are about unit vectors that point out of the image, with means of 1 ± ¼ and at least ½.
+    pub fn is_normal_map(&self, raw: Raw) -> bool {
+        let texels = &self.image(raw).texels;
+        let vectors = || texels.iter().map(|&[r, g, b, _]| [r, g, b].map(|byte| f64::from(byte) / 127.5 - 1.0));
+        let count = texels.len().max(1) as f64;
+        let upright = vectors().map(|[.., z]| z).sum::<f64>() / count;
+        let length = vectors().map(|v| v.map(|x| x * x).iter().sum::<f64>().sqrt()).sum::<f64>() / count;
+        upright > 0.5 && (length - 1.0).abs() < 0.25 && !self.is_grey(raw)
+    }
+
     /// True if all texels have one colour.
     pub fn is_plain(&self, raw: Raw) -> bool {
         let texels = &self.image(raw).texels;

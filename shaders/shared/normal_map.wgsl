@@ -1,0 +1,89 @@
+#define_import_path asvgf::normal_map
+
+// Normals from images (glTF 2.0, §3.9.3), in the space of tangent, bitangent and interpolated normal:
+//
+//   n = x·t + y·b + z·n₀,   b = w·n₀ × t,   (x, y, z) = texel·2 − 1,  x and y times the map's scale
+//
+// Light is scattered about this normal. The filter's G-buffer has the interpolated one, because its stops would part the slopes of a
+// relief, and its planes would not be those of the surface (docs/filter.md).
+
+#import asvgf::scene::{scene, attributes, geometry_word, load_material, load_normal_map, object_to_world, transform_vector, instance_numbers, NORMAL_MAPPED}
+#import asvgf::surface::{Visible, interpolated_normal, shading_normal}
+#import asvgf::texture::sample_texture
+#import asvgf::packing::octahedral
+
+// Words of the attributes before the tangents: three normals, which every scene with normal maps has.
+const TANGENTS: u32 = 3u;
+
+// Unpacks a unit tangent: 16 and 15 bits on the unfolded octahedron. Bit 31 is set if w is −1.
+fn unpack_tangent(bits: u32) -> vec3<f32> {
+    return octahedral(vec2(f32(bits & 0xffffu) * (2.0 / 65535.0), f32((bits >> 16u) & 0x7fffu) * (2.0 / 32767.0)) - 1.0);
+}
+
+// Tangent at a point, of any length, and w.
+fn tangent_at(v: Visible, weights: vec2<f32>, first: u32) -> vec4<f32> {
+    let a = unpack_tangent(attributes[first]);
+    let b = unpack_tangent(attributes[first + 1u]);
+    let c = unpack_tangent(attributes[first + 2u]);
+    let t = a + weights.x * (b - a) + weights.y * (c - a);
+    // The corners of a triangle have one w, because a triangle of the image is mirrored or not.
+    let w = select(1.0, -1.0, (attributes[first] >> 31u) != 0u);
+#ifdef INSTANCED
+    // A placement that mirrors turns the cross product over.
+    let mirrored = (instance_numbers(v.instance).w & 1u) != 0u;
+    return vec4(transform_vector(object_to_world(v.instance), t), select(w, -w, mirrored));
+#else
+    return vec4(t, w);
+#endif
+}
+
+// Squared length up to which a vector has no direction.
+const NO_DIRECTION: f32 = 1e-20;
+
+// The normal of the material's image, on the side from which light is seen; the interpolated normal if there is no image or no tangent.
+fn mapped_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
+    let shading = shading_normal(v, weights, geometric);
+    let m = load_material(geometry_word(v.row * 3u).w);
+    let first = v.row * scene.attribute_stride + TANGENTS;
+    if (m.flags & NORMAL_MAPPED) == 0u || attributes[first] == 0u {
+        return shading;
+    }
+    let tangent = tangent_at(v, weights, first);
+    let squared = dot(tangent.xyz, tangent.xyz);
+    if squared <= NO_DIRECTION {
+        return shading;
+    }
+    // The image belongs to the front. Seen from the back, the whole relief is turned over, as glTF does with the normal.
+    let side = select(1.0, -1.0, dot(interpolated_normal(v, weights), shading) < 0.0);
+    let normal = side * shading;
+    let t = tangent.xyz * inverseSqrt(squared);
+    let map = load_normal_map(m);
+    let texel = sample_texture(map.texture, v.row, weights, false).xyz * 2.0 - 1.0;
+    let flat = texel.xy * map.scale;
+    // No texel points into the surface.
+    let mapped = flat.x * t + flat.y * tangent.w * cross(normal, t) + max(texel.z, 0.0) * normal;
+    let length = dot(mapped, mapped);
+    return select(side * mapped * inverseSqrt(length), shading, length <= NO_DIRECTION);
+}
+
+// Least n·g by which is divided.
+const LEAST_COSINE: f32 = 1e-3;
+
+// A normal that mirrors the viewer to directions above the surface. Failure: parts of glossy relief were black, because about a normal
+// that is turned far from the viewer the lobe lies below the geometric surface, where no light may go. Reason: the relief's other slope,
+// which would face the viewer, is not there. Rule: if the mirrored direction r is below the surface, it is lifted along the normal to
+// the surface, and the normal is the half vector to what results (Keller et al. 2017, "The Iray Light Transport Simulation and Rendering
+// System", appendix A.3):
+//
+//   r′ = unit(r − n·(r·g)/(n·g)),   n′ = unit(v + r′)
+fn reflecting_normal(n: vec3<f32>, g: vec3<f32>, view: vec3<f32>) -> vec3<f32> {
+    let mirrored = 2.0 * dot(n, view) * n - view;
+    let above = dot(mirrored, g);
+    if above >= 0.0 {
+        return n;
+    }
+    let lifted = normalize(mirrored - n * (above / max(dot(n, g), LEAST_COSINE)));
+    let between = view + lifted;
+    let squared = dot(between, between);
+    return select(between * inverseSqrt(squared), g, squared <= NO_DIRECTION);
+}
