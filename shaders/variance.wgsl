@@ -35,6 +35,16 @@ fn neighbour_weight(plane: Plane, normal: vec3<f32>, offset: vec2<i32>, g: vec2<
     return falloff(exponent);
 }
 
+#ifdef CLAMP
+// Pixels of the window: 5×5, because reflections have borders of light that the weights do not see, and because the clamp reads them anyway.
+const WINDOW: i32 = 25;
+
+// Offset of pixel i of the window, row by row. (i·13) >> 6 is i / 5 for i < 25: a software adapter divides integers one by one.
+fn window_offset(i: i32) -> vec2<i32> {
+    let row = (i * 13) >> 6u;
+    return vec2(i - 5 * row, row) - 2;
+}
+#else
 // Pixels of the 7×7 window (Schied et al. 2017, §4.2).
 const WINDOW: i32 = 49;
 
@@ -43,6 +53,7 @@ fn window_offset(i: i32) -> vec2<i32> {
     let row = (i * 37) >> 8u;
     return vec2(i - 7 * row, row) - 3;
 }
+#endif
 
 fn mean_luminance(h: vec2<u32>) -> f32 {
 #ifdef FEEDBACK
@@ -180,10 +191,7 @@ fn repeated_noise(pixel: vec2<i32>, plane: Plane, normal: vec3<f32>, center: f32
 #endif
 
 #ifdef CLAMP
-// Pixels of the 5×5 around.
-const CLAMP_TAPS: i32 = 25;
-
-// Fewest pixels of the surface among them that show what is usual.
+// Fewest pixels of the surface in the window that show what is usual.
 const FEWEST: f32 = 6.0;
 
 // Cosine of normals of one surface here: acos 0.8 is 37°.
@@ -191,6 +199,24 @@ const ONE_SURFACE: f32 = 0.8;
 
 // Largest factor by which a pixel gives back the light that the clamp takes from its neighbourhood.
 const MOST_GIVEN_BACK: f32 = 1.5;
+
+// The luminances of the neighbours on the pixel's surface: the three largest ones, their sum and their number.
+struct Usual {
+    first: f32,
+    second: f32,
+    third: f32,
+    sum: f32,
+    count: f32,
+}
+
+fn add_neighbour(usual: ptr<function, Usual>, l: f32, there: bool) {
+    let next = select(0.0, l, there);
+    (*usual).third = max((*usual).third, min((*usual).second, next));
+    (*usual).second = max((*usual).second, min((*usual).first, next));
+    (*usual).first = max((*usual).first, next);
+    (*usual).sum += next;
+    (*usual).count += select(0.0, 1.0, there);
+}
 
 // Factor on a pixel's colour: it brings the luminance down to `gloss_clamp` times the third largest of the 24 around on its surface, about
 // their 90th percentile, and gives the light that exceeds this bound back to the whole window:
@@ -203,32 +229,11 @@ const MOST_GIVEN_BACK: f32 = 1.5;
 //
 // Failure: the picture was 3 % too dark. Reason: the bound takes more from the light than it takes from its mean's error. Rule: neighbours
 // share the excess, up to half of what they have; at most the first, the second and the pixel itself exceed the bound.
-fn clamped(pixel: vec2<i32>, normal: vec3<f32>, center: f32, seen: bool) -> f32 {
-    var first = 0.0;
-    var second = 0.0;
-    var third = 0.0;
-    var sum = center;
-    var count = 0.0;
-    let taps = select(0, CLAMP_TAPS, seen && center > 0.0);
-    for (var i = 0; i < taps; i++) {
-        // (i·13) >> 6 is i / 5 for i < 25.
-        let row = (i * 13) >> 6u;
-        let tap = pixel + vec2(i - 5 * row, row) - 2;
-        let near = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
-        let g = textureLoad(guide, near, 0).xy;
-        let h = textureLoad(history, near, 0).xy;
-        let there = i != 12 && inside(tap) && g.y != 0u && history_length(h) > 0.0 && dot(normal, unpack_normal(g.x)) >= ONE_SURFACE;
-        let l = select(0.0, mean_luminance(h), there);
-        third = max(third, min(second, l));
-        second = max(second, min(first, l));
-        first = max(first, l);
-        sum += l;
-        count += select(0.0, 1.0, there);
-    }
-    let bound = frame.gloss_clamp * third;
-    let excess = max(first - bound, 0.0) + max(second - bound, 0.0) + max(center - bound, 0.0);
-    let given_back = clamp(1.0 + excess / max(sum - excess, 1e-37), 1.0, MOST_GIVEN_BACK);
-    return select(1.0, given_back * min(1.0, bound / max(center, 1e-37)), count >= FEWEST);
+fn clamped(usual: Usual, center: f32) -> f32 {
+    let bound = frame.gloss_clamp * usual.third;
+    let excess = max(usual.first - bound, 0.0) + max(usual.second - bound, 0.0) + max(center - bound, 0.0);
+    let given_back = clamp(1.0 + excess / max(usual.sum + center - excess, 1e-37), 1.0, MOST_GIVEN_BACK);
+    return select(1.0, given_back * min(1.0, bound / max(center, 1e-37)), usual.count >= FEWEST);
 }
 #endif
 
@@ -249,13 +254,19 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var weights = 0.0;
     // A loop whose length is 0 in long histories, and not a branch: a software adapter executes a branch either way, but skips a
     // loop that no invocation enters. It is not unrolled.
+#ifdef CLAMP
+    var usual = Usual();
+    let taps = select(0, WINDOW, length > 0.0);
+#else
     let taps = select(0, WINDOW, short);
+#endif
     for (var i = 0; i < taps; i++) {
         let offset = window_offset(i);
         let tap = pixel + offset;
-        let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
-        let on_surface = neighbour_weight(plane, normal, offset, textureLoad(guide, clamped, 0).xy);
-        let other = textureLoad(history, clamped, 0).xy;
+        let near = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
+        let there = textureLoad(guide, near, 0).xy;
+        let on_surface = neighbour_weight(plane, normal, offset, there);
+        let other = textureLoad(history, near, 0).xy;
 #ifdef MISSING_SAMPLES
         let w = select(0.0, on_surface, inside(tap) && history_length(other) > 0.0);
 #else
@@ -265,6 +276,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         first += w * d;
         second += w * (history_variance(other) + d * d);
         weights += w;
+#ifdef CLAMP
+        let similar = there.y != 0u && dot(normal, unpack_normal(there.x)) >= ONE_SURFACE;
+        add_neighbour(&usual, mean_luminance(other), similar && any(offset != vec2(0)) && inside(tap) && history_length(other) > 0.0);
+#endif
     }
     let mean = first / max(weights, 1e-6);
     // Times 4/n: the neighbours of a history of n < 4 frames have seen as few frames as the pixel itself.
@@ -289,9 +304,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     variance = max(variance, SHORT_HISTORY * repeated_noise(pixel, plane, normal, center, silent));
 #endif
 #ifdef CLAMP
-    let usual = clamped(pixel, normal, center, length > 0.0);
-    variance *= usual * usual;
-    let color = usual * color_at(pixel, h);
+    let taken_in = clamped(usual, center);
+    variance *= taken_in * taken_in;
+    let color = taken_in * color_at(pixel, h);
 #else
     let color = color_at(pixel, h);
 #endif

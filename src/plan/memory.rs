@@ -211,7 +211,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::{Changes, HostInputs};
+    use crate::plan::{Changes, HostInputs, PairInputs};
     use crate::{FilterSettings, Gradient, Mode, Settings};
 
     /// Plans of a host's frames that keep different images, each with the plan for the case that everything changes.
@@ -352,6 +352,32 @@ mod tests {
         assert_eq!(bytes(Gradient::Reshade, alone), 48.0 + strata);
         // An albedo adds that of both frames, and an emission itself.
         assert_eq!(bytes(Gradient::Reshade, all), 72.0 + strata);
+    }
+
+    #[test]
+    fn two_signals_take_no_more_than_twice_the_memory_of_one() {
+        let size = [300, 300];
+        let bytes = |gradient, gloss: bool| {
+            let pairs = (gradient == Gradient::Pairs).then(PairInputs::default);
+            let alone = HostInputs { albedo: true, pairs, ..Default::default() };
+            let inputs = HostInputs {
+                specular: true,
+                reflectance: true,
+                roughness: true,
+                hit_distance: true,
+                specular_pairs: pairs,
+                ..alone
+            };
+            let filter = FilterSettings { gradient, ..Default::default() };
+            let settings = Settings { filter, ..Settings::adaptive() };
+            let inputs = if gloss { inputs } else { alone };
+            let plan = Plan::hosted(&inputs, &settings, Changes::ANY, TextureFormat::Rgba32Float);
+            plan.bytes(size, false) as f64 / f64::from(size[0] * size[1])
+        };
+        for gradient in [Gradient::Off, Gradient::Pairs, Gradient::Statistics, Gradient::Reshade] {
+            let [one, two] = [false, true].map(|gloss| bytes(gradient, gloss));
+            assert!(one < two && two <= 2.0 * one, "{gradient:?}: {two} bytes instead of {one}");
+        }
     }
 
     #[test]

@@ -104,7 +104,7 @@ settings! {
         ridge_noise: f32 { default: 1.5, classic: 0.0, range: 0..=1e6, useful: 0..=16, compiles: Sometimes }
 
         /// Spatial iterations, with steps of 1, 2, 4 … pixels. More: smoother, but slower and blurrier. Fewer: faster and sharper, but
-        /// noisier. Changing it from 0 or 1, or to 0, compiles.
+        /// noisier. Specular light has three at most. Changing it from 0 or 1, or to 0, compiles.
         iterations: u32 { default: 4, classic: 5, range: 0..=8, most: MOST_SPATIAL_ITERATIONS, compiles: Sometimes }
 
         /// Adds an iteration over the nine nearest taps. On: less error and less flicker, for a seventh of the spatial filter's time.
