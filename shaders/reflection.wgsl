@@ -290,8 +290,8 @@ fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: A
     let image = was + (seen - 2.0 * dot(seen, turned) * turned) / factor;
     let before = project(frame.previous, image);
     // The image may lie behind the eye, on the other side of the same line.
-    let side = select(1.0, dot(here + d * (h / factor), frame.camera.forward), !is_orthographic(frame.camera));
-    let visible = before.z * side > 0.0 || is_orthographic(frame.camera);
+    let side = dot(here + d * (h / factor), frame.camera.forward);
+    let visible = is_orthographic(frame.camera) || before.z * side > 0.0;
     var shift = before.xy - point;
     let is_curved = abs(near.curvature) * h > CURVED;
     let steps = select(0, STEPS, visible && is_curved && distance(shift, moved.xy) > WORTH_A_SEARCH);

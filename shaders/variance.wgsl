@@ -252,8 +252,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var first = 0.0;
     var second = 0.0;
     var weights = 0.0;
-    // A loop whose length is 0 in long histories, and not a branch: a software adapter executes a branch either way, but skips a
-    // loop that no invocation enters. It is not unrolled.
+    // A loop whose length may be 0, and not a branch: a software adapter executes a branch either way, but skips a loop that no
+    // invocation enters. It is not unrolled. The clamp needs the window of long histories too.
 #ifdef CLAMP
     var usual = Usual();
     let taps = select(0, WINDOW, length > 0.0);
@@ -272,13 +272,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #else
         let w = select(0.0, on_surface, inside(tap));
 #endif
-        let d = mean_luminance(other) - center;
+        let l = mean_luminance(other);
+        let d = l - center;
         first += w * d;
         second += w * (history_variance(other) + d * d);
         weights += w;
 #ifdef CLAMP
         let similar = there.y != 0u && dot(normal, unpack_normal(there.x)) >= ONE_SURFACE;
-        add_neighbour(&usual, mean_luminance(other), similar && any(offset != vec2(0)) && inside(tap) && history_length(other) > 0.0);
+        add_neighbour(&usual, l, similar && any(offset != vec2(0)) && inside(tap) && history_length(other) > 0.0);
 #endif
     }
     let mean = first / max(weights, 1e-6);

@@ -97,7 +97,7 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     s.geometric = geometric_normal(t, ray_direction);
     s.margin = plane_margin(t, s.geometric, error);
 #ifdef NORMAL_MAPS
-    s.normal = mapped_normal(v, weights, s.geometric);
+    s.normal = mapped_normal(v, m, weights, s.geometric);
 #else
     s.normal = shading_normal(v, weights, s.geometric);
 #endif

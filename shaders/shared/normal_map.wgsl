@@ -7,7 +7,7 @@
 // Light is scattered about this normal. The filter's G-buffer has the interpolated one, because its stops would part the slopes of a
 // relief, and its planes would not be those of the surface (docs/filter.md).
 
-#import asvgf::scene::{scene, attributes, geometry_word, load_material, load_normal_map, object_to_world, transform_vector, instance_numbers, NORMAL_MAPPED}
+#import asvgf::scene::{scene, attributes, Material, load_normal_map, object_to_world, transform_vector, instance_numbers, NORMAL_MAPPED}
 #import asvgf::surface::{Visible, interpolated_normal, shading_normal}
 #import asvgf::texture::sample_texture
 #import asvgf::packing::octahedral
@@ -41,9 +41,8 @@ fn tangent_at(v: Visible, weights: vec2<f32>, first: u32) -> vec4<f32> {
 const NO_DIRECTION: f32 = 1e-20;
 
 // The normal of the material's image, on the side from which light is seen; the interpolated normal if there is no image or no tangent.
-fn mapped_normal(v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
+fn mapped_normal(v: Visible, m: Material, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
     let shading = shading_normal(v, weights, geometric);
-    let m = load_material(geometry_word(v.row * 3u).w);
     let first = v.row * scene.attribute_stride + TANGENTS;
     if (m.flags & NORMAL_MAPPED) == 0u || attributes[first] == 0u {
         return shading;

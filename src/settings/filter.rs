@@ -139,7 +139,7 @@ settings! {
         /// Greatest luminance of accumulated specular light that the spatial filter takes in, as a multiple of the third largest of the
         /// 24 pixels around. The history keeps the light above, and the pixels around get up to half of their own light from it. Higher:
         /// less of a lone highlight's light is lost, but spots stay where noise is strong. Lower: smoother, but darker. 0 takes in
-        /// everything, which saves 24 taps. Changing it from or to 0 compiles.
+        /// everything, which saves 25 taps where histories are long. Changing it from or to 0 compiles.
         gloss_clamp: f32 { default: 2.0, classic: 0.0, range: 0..=1e6, useful: 0..=16, compiles: Sometimes }
 
         /// Speed with which reflections that slide over a surface shorten the history, where one radiance holds diffuse and specular

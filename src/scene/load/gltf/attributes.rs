@@ -45,23 +45,27 @@ impl<'a> Vertices<'a> {
 
     /// The normals of the file, or an empty list.
     pub fn normals(&self, report: &mut Report) -> Vec<[f32; 3]> {
-        let Some(accessor) = self.attribute(Semantic::Normals) else { return Vec::new() };
-        match self.open(accessor, Type::Vec3, REAL, &format!("{}.attributes.NORMAL", self.element)) {
-            Ok(elements) => gather(&elements, self.kept),
-            Err(fault) => {
-                report.replace(fault, "the triangles' own normals are used");
-                Vec::new()
-            }
-        }
+        self.vectors((Semantic::Normals, "NORMAL", Type::Vec3), "the triangles' own normals are used", report)
     }
 
     /// The tangents of the file, or an empty list.
     pub fn tangents(&self, report: &mut Report) -> Vec<[f32; 4]> {
-        let Some(accessor) = self.attribute(Semantic::Tangents) else { return Vec::new() };
-        match self.open(accessor, Type::Vec4, REAL, &format!("{}.attributes.TANGENT", self.element)) {
+        let instead = "tangents are made from the texture coordinates";
+        self.vectors((Semantic::Tangents, "TANGENT", Type::Vec4), instead, report)
+    }
+
+    /// The vectors of an attribute, or an empty list. `instead` names their replacement in the warning.
+    fn vectors<const N: usize>(
+        &self,
+        (semantic, name, shape): (Semantic, &str, Type),
+        instead: &str,
+        report: &mut Report,
+    ) -> Vec<[f32; N]> {
+        let Some(accessor) = self.attribute(semantic) else { return Vec::new() };
+        match self.open(accessor, shape, REAL, &format!("{}.attributes.{name}", self.element)) {
             Ok(elements) => gather(&elements, self.kept),
             Err(fault) => {
-                report.replace(fault, "tangents are made from the texture coordinates");
+                report.replace(fault, instead);
                 Vec::new()
             }
         }
