@@ -16,14 +16,22 @@
 #import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at}
 #import asvgf::material::{LEAST_DEMODULATION, Surface, surface_at, demodulation, scattering, sample_direction}
 #ifdef GLOSS
-#import asvgf::material::{LEAST_SPECULAR, specular_demodulation, specular_share}
+#import asvgf::material::{LEAST_SPECULAR, specular_demodulation, is_mirrored}
 #ifdef INSTANCED
 #import asvgf::packing::pack_displacement
 #endif
 #endif
 #import asvgf::light::{environment_radiance, environment_density, emitter_density}
+#import asvgf::throughput::{Light, Throughput, add, scaled, scatter}
 #ifdef LIGHTS
 #import asvgf::light::sample_light
+#import asvgf::throughput::add_scattered
+#endif
+#ifdef TRANSMISSION
+#import asvgf::glass_path::{MOST_BOUNDARIES, MOST_REFRACTIONS, Body, absorbed, body_before, enter, is_refracted, straight_through}
+#import asvgf::material::is_glass
+#import asvgf::throughput::{Ways, ways_behind, add_light_sample}
+#import asvgf::glass_shadow::{arriving_part, met_glass}
 #endif
 #import asvgf::scene::{NO_TRIANGLE, geometry_word, instance_numbers, scene}
 #import asvgf::color::{BRIGHTEST, luminance, sanitize}
@@ -85,11 +93,10 @@ fn visible_surface(id: u32, camera: Camera, pixel: vec2<f32>, before: bool) -> S
         then = triangle_before(v);
     }
     let weights = barycentrics(then, camera.eye, ray);
-    return surface_at(v, now, weights, at(now, weights) - camera.eye);
 #else
     let weights = barycentrics(now, camera.eye, ray);
-    return surface_at(v, now, weights, at(now, weights) - camera.eye);
 #endif
+    return surface_at(v, now, weights, at(now, weights) - camera.eye);
 }
 
 // Limits of the probability with which a path survives Russian roulette. The lower one bounds the weight of a survivor; the upper
@@ -103,111 +110,138 @@ fn mis_weight(chosen: f32, other: f32) -> f32 {
     return 1.0 - 1.0 / (1.0 + a * a);
 }
 
-// One path's estimate of the radiance that the surface reflects towards the viewer.
-struct Light {
-    // All of it, or what the diffuse lobe reflects.
-    diffuse: vec3<f32>,
-#ifdef GLOSS
-    // What the specular lobe reflects.
-    specular: vec3<f32>,
-    // Distance to what the path met along the specular lobe; 0 if it left by the diffuse one.
-    hit_distance: f32,
-#ifdef INSTANCED
-    // Displacement of that since the last frame.
-    displacement: vec3<f32>,
-#endif
-#endif
-}
-
 // Farthest distance of what is reflected: the sky's.
 const FARTHEST: f32 = 8e9;
 
-// Traces a path. With GLOSS its light is split by the lobe of the first surface: each direction is sampled once, by the density of both
-// lobes together, and weighted by the value of each lobe. So neither signal needs a path of its own, and none misses a sample.
+// Point at which a ray starts that leaves a surface in this direction.
+fn origin_towards(s: Surface, direction: vec3<f32>) -> vec3<f32> {
+#ifdef TRANSMISSION
+    return s.position + select(-s.margin, s.margin, dot(direction, s.geometric) > 0.0) * s.geometric;
+#else
+    return s.position + s.margin * s.geometric;
+#endif
+}
+
+#ifdef TRANSMISSION
+// Place of the camera that sees the first surface.
+var<private> eye: vec3<f32>;
+#endif
+
+// Traces a path. With GLOSS its light is split by the lobe of the first surface: each direction is
+// sampled once, by the density of both lobes together, and weighted by the value of each lobe. So neither signal needs a path of its
+// own, and none misses a sample.
 fn path(first: Surface, seed: u32) -> Light {
     var state = seed;
     var s = first;
-    var throughput = vec3(1.0);
-    var total = vec3(0.0);
-#ifdef GLOSS
-    // The part of the throughput that left the first surface by its specular lobe.
-    var specular_part = vec3(0.0);
-    var specular = vec3(0.0);
-    var hit_distance = 0.0;
-#ifdef INSTANCED
-    var displacement = vec3(0.0);
+    var is_first = true;
+    var throughput: Throughput;
+    throughput.all = vec3(1.0);
+    var light: Light;
+#ifdef TRANSMISSION
+    var body: Body;
+    throughput.all = absorbed(body_before(s, body), distance(s.position, eye));
+    var ways = Ways(throughput, throughput);
+    // Boundaries of glass that the path has met. They are no bounces, because a lamp behind a window would need four of them.
+    var boundaries = 0u;
+    var bounces = 1u;
+    for (var bounce = 0u; bounce <= frame.bounces || is_glass(s); bounce += bounces) {
+        let is_straight = boundaries >= MOST_REFRACTIONS && is_glass(s);
+        // Behind the last bounce there may be glass before a light.
+        let is_last = bounce > frame.bounces;
+#ifndef SCATTERED_RAYS_ONLY
+        if is_last {
+            throughput = Throughput();
+        }
 #endif
-#endif
+#else
     for (var bounce = 0u; bounce <= frame.bounces; bounce++) {
+#endif
         // The number of draws per bounce is always the same, so that a change of one light does not shift the others' random numbers.
         let light_choice = uniform_float(&state);
         let light_u = vec2(uniform_float(&state), uniform_float(&state));
         let lobe = uniform_float(&state);
         let direction_u = vec2(uniform_float(&state), uniform_float(&state));
         let survival = uniform_float(&state);
-        let origin = s.position + s.margin * s.geometric;
 #ifdef ALPHA_BLEND
         cover_at_random(state);
 #endif
 #ifdef LIGHTS
 #ifndef SCATTERED_RAYS_ONLY
         // The sample starts where the ray starts, because even that small step is much of the way to a light nearby.
-        let light = sample_light(origin, light_choice, light_u);
-        let towards = scattering(s, light.direction);
-        let arriving = towards.value * light.radiance;
-        if light.density > 0.0 && max(max(arriving.x, arriving.y), arriving.z) > 0.0 {
+        let lamp = sample_light(s.position + s.margin * s.geometric, light_choice, light_u);
+        let towards = scattering(s, lamp.direction);
+        let reflected = towards.value * lamp.radiance;
+#ifdef TRANSMISSION
+        let is_lit = lamp.density > 0.0 && !is_straight;
+#else
+        let is_lit = lamp.density > 0.0;
+#endif
+        if is_lit && max(max(reflected.x, reflected.y), reflected.z) > 0.0 {
             rays += 1u;
-            if !occluded(Ray(origin, light.direction), light.reach) {
+            if !occluded(Ray(origin_towards(s, lamp.direction), lamp.direction), lamp.reach) {
 #ifdef LIGHT_SAMPLES_ONLY
                 let weight = 1.0;
 #else
-                let weight = select(1.0, mis_weight(light.density, towards.density), light.has_area);
+                let weight = select(1.0, mis_weight(lamp.density, towards.density), lamp.has_area);
 #endif
-#ifdef GLOSS
-                // The direct light of the first surface is split by the lobes' values in this direction.
-                let all = arriving * (weight / light.density);
-                let part = select(specular_part * all, towards.specular * light.radiance * (weight / light.density), bounce == 0u);
-                specular += part;
-                total += throughput * all - part;
+#ifdef TRANSMISSION
+                let arriving = lamp.radiance * arriving_part(lamp.distance) / lamp.density;
+                add_light_sample(
+                    &light, s, throughput, ways, towards, arriving, weight, lamp.has_area, met_glass, is_first);
 #else
-                total += throughput * arriving * (weight / light.density);
+                add_scattered(&light, throughput, towards, lamp.radiance * (weight / lamp.density), is_first);
 #endif
             }
         }
 #endif
 #endif
-        let next = sample_direction(s, direction_u, lobe);
-        let scattered = scattering(s, next);
+        var next = sample_direction(s, direction_u, lobe);
+        var scattered = scattering(s, next);
+#ifdef TRANSMISSION
+        if is_straight {
+            next = -s.view;
+            scattered = straight_through(s);
+        }
+#endif
         if scattered.density <= 0.0 {
             break;
         }
-        throughput *= scattered.value / scattered.density;
-#ifdef GLOSS
-        specular_part = select(
-            specular_part * scattered.value / scattered.density, scattered.specular / scattered.density, bounce == 0u);
+        let origin = origin_towards(s, next);
+#ifdef TRANSMISSION
+        ways = ways_behind(s, throughput, ways, scattered, is_first);
+        bounces = 1u;
+        if is_refracted(s, lobe) {
+            bounces = 0u;
+            boundaries += 1u;
+        } else if is_last {
+            break;
+        }
+        body = enter(body, s, next);
 #endif
+        throughput = scatter(throughput, scattered, is_first);
         rays += 1u;
         let hit = closest_hit(Ray(origin, next));
 #ifdef GLOSS
-        if bounce == 0u && lobe < specular_share(s) {
-            hit_distance = select(hit.distance, FARTHEST, hit.triangle == NO_TRIANGLE);
+        if is_first && is_mirrored(s, lobe, next) {
+            light.hit_distance = select(hit.distance, FARTHEST, hit.triangle == NO_TRIANGLE);
         }
 #endif
         if hit.triangle == NO_TRIANGLE {
 #ifdef ENVIRONMENT_LIGHT
+#ifdef TRANSMISSION
+            let from_sky = scaled(ways.direct, absorbed(body, FARTHEST));
+#else
+            let from_sky = throughput;
+#endif
 #ifndef LIGHT_SAMPLES_ONLY
             let sky = environment_radiance(next);
 #ifdef SCATTERED_RAYS_ONLY
-            let weight = 1.0;
+            add(&light, from_sky, sky, 1.0);
 #else
-            let weight = mis_weight(scattered.density, environment_density(sky));
+            add(&light, from_sky, sky, mis_weight(scattered.density, environment_density(sky)));
 #endif
-#ifdef GLOSS
-            specular += specular_part * sky * weight;
-            total += (throughput - specular_part) * sky * weight;
-#else
-            total += throughput * sky * weight;
-#endif
+#else ifdef TRANSMISSION
+            add(&light, from_sky, environment_radiance(next), 1.0);
 #endif
 #endif
             break;
@@ -216,56 +250,63 @@ fn path(first: Surface, seed: u32) -> Light {
         let t = triangle_now(v);
 #ifdef GLOSS
 #ifdef INSTANCED
-        if bounce == 0u && hit_distance > 0.0 {
-            displacement = at(triangle_before(v), hit.barycentrics) - at(t, hit.barycentrics);
+        if is_first && light.hit_distance > 0.0 {
+            light.displacement = at(triangle_before(v), hit.barycentrics) - at(t, hit.barycentrics);
         }
 #endif
 #endif
         s = surface_at(v, t, hit.barycentrics, next);
+#ifdef TRANSMISSION
+        let left = absorbed(body_before(s, body), hit.distance);
+        throughput = scaled(throughput, left);
+        ways = Ways(scaled(ways.direct, left), scaled(ways.refracted, left));
+        let from_emitter = ways.direct;
+#else
+        let from_emitter = throughput;
+#endif
 #ifdef EMITTERS
 #ifndef LIGHT_SAMPLES_ONLY
         let emitter = geometry_word(hit.triangle * 3u + 1u).w;
         if emitter > 0u {
 #ifdef SCATTERED_RAYS_ONLY
-            let weight = 1.0;
+            add(&light, from_emitter, s.emission, 1.0);
 #else
 #ifdef INSTANCED
             let index = instance_numbers(hit.instance).z + emitter - 1u;
 #else
             let index = emitter - 1u;
 #endif
-            let weight = mis_weight(scattered.density, emitter_density(index, t, next, hit.distance));
-#endif
-#ifdef GLOSS
-            specular += specular_part * s.emission * weight;
-            total += (throughput - specular_part) * s.emission * weight;
-#else
-            total += throughput * s.emission * weight;
+            add(&light, from_emitter, s.emission, mis_weight(scattered.density, emitter_density(index, t, next, hit.distance)));
 #endif
         }
+#else ifdef TRANSMISSION
+        if geometry_word(hit.triangle * 3u + 1u).w > 0u {
+            add(&light, from_emitter, s.emission, 1.0);
+        }
 #endif
+#endif
+        is_first = false;
+#ifdef TRANSMISSION
+        if boundaries >= MOST_BOUNDARIES {
+            break;
+        }
+        if is_last {
+            continue;
+        }
 #endif
         if bounce >= frame.roulette {
             // Russian roulette (Arvo and Kirk 1990) by the light that the path can still carry.
-            let p = clamp(max(max(throughput.x, throughput.y), throughput.z), LEAST_SURVIVAL, MOST_SURVIVAL);
+            let p = clamp(max(max(throughput.all.x, throughput.all.y), throughput.all.z), LEAST_SURVIVAL, MOST_SURVIVAL);
             if survival >= p {
                 break;
             }
-            throughput /= p;
-#ifdef GLOSS
-            specular_part /= p;
+            throughput = scaled(throughput, vec3(1.0 / p));
+#ifdef TRANSMISSION
+            ways.refracted = scaled(ways.refracted, vec3(1.0 / p));
 #endif
         }
     }
-#ifdef GLOSS
-#ifdef INSTANCED
-    return Light(total, specular, hit_distance, displacement);
-#else
-    return Light(total, specular, hit_distance);
-#endif
-#else
-    return Light(total);
-#endif
+    return light;
 }
 
 #ifdef GLOSS
@@ -372,6 +413,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     var s = visible_surface(seen, frame.camera, vec2<f32>(id.xy), false);
+#ifdef TRANSMISSION
+    eye = frame.camera.eye;
+#endif
 #ifdef ALPHA_BLEND
     var ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
 #endif
@@ -400,6 +444,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         s = visible_surface(then, frame.previous, vec2<f32>(q), true);
 #ifdef ALPHA_BLEND
         ray = Ray(frame.previous.eye, direction(frame.previous, sample_point(frame.previous, vec2<f32>(q))));
+#endif
+#ifdef TRANSMISSION
+        eye = frame.previous.eye;
 #endif
         seed_pixel = vec2<u32>(q);
         seed_frame = frame.index - 1u;

@@ -8,7 +8,8 @@
 #endif
 #import asvgf::surface::{Visible, Triangle, triangle_now, at, rounding_error}
 #import asvgf::color::luminance
-#import asvgf::material::{PI, surface_at}
+#import asvgf::ggx::PI
+#import asvgf::material::surface_at
 
 // Light kinds, as in src/scene/gpu/light/record.rs.
 const EMITTER: u32 = 0u;

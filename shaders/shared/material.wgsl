@@ -4,6 +4,17 @@
 #import asvgf::surface::{Visible, Triangle, at, within_edges, geometric_normal, shading_normal, is_front, rounding_error, plane_margin}
 #import asvgf::color::luminance
 #import asvgf::packing::round_to_f16
+#import asvgf::ggx::PI
+#ifdef SPECULAR
+#import asvgf::ggx::{LEAST_COSINE, distribution, smith, sample_visible_normal}
+#endif
+#ifdef SPECULAR
+#import asvgf::bent_normal::reflecting_normal
+#endif
+#ifdef TRANSMISSION
+#import asvgf::scene::{TRANSMITTING, load_glass}
+#import asvgf::glass::{grazing_part, facets, leave}
+#endif
 #ifdef TEXTURES
 #import asvgf::texture::{sample_texture, exists}
 #endif
@@ -14,11 +25,8 @@
 #import asvgf::normal_map::mapped_normal
 #ifdef SPECULAR
 #import asvgf::scene::NORMAL_MAPPED
-#import asvgf::normal_map::reflecting_normal
 #endif
 #endif
-
-const PI: f32 = 3.14159265358979;
 
 // A point that light meets, with all that its scattering depends on.
 struct Surface {
@@ -38,6 +46,18 @@ struct Surface {
     edge: f32,
     // GGX width α, the square of the perceptual roughness.
     alpha: f32,
+#endif
+#ifdef TRANSMISSION
+    // Colour of the light that goes through, of what is not mirrored; 0 if the surface is opaque.
+    transmitted: vec3<f32>,
+    // Index of refraction on the viewer's side over that on the other side.
+    ratio: f32,
+    // True for a pane without thickness.
+    thin: bool,
+    // True if the viewer is inside the body whose skin this is.
+    inside: bool,
+    // Absorption of this body per unit of length.
+    absorption: vec3<f32>,
 #endif
 }
 
@@ -84,7 +104,8 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
 #endif
 #endif
     let flags = m.flags;
-    if (flags & TWO_SIDED_EMITTER) == 0u && !is_front(t, v, ray_direction) {
+    let front = is_front(t, v, ray_direction);
+    if (flags & TWO_SIDED_EMITTER) == 0u && !front {
         emission = vec3(0.0);
     }
     if (flags & UNLIT) != 0u {
@@ -109,6 +130,26 @@ fn surface_at(v: Visible, t: Triangle, weights: vec2<f32>, ray_direction: vec3<f
     s.reflectance = mix(specular, base, metallic) * lit;
     s.edge = mix(edge, 1.0, metallic) * lit;
     s.alpha = max(roughness * roughness, LEAST_WIDTH);
+#ifdef TRANSMISSION
+    s.ratio = 1.0;
+    if (flags & TRANSMITTING) != 0u {
+        let glass = load_glass(m);
+        var transmission = glass.transmission;
+#ifdef TEXTURES
+        let texture = glass.texture;
+        if exists(texture) {
+            transmission *= sample_texture(texture, v.row, weights, false).x;
+        }
+#endif
+        s.transmitted = s.diffuse * transmission;
+        s.diffuse *= 1.0 - transmission;
+        s.thin = glass.solid == 0u;
+        s.inside = !s.thin && !front;
+        s.ratio = select(1.0 / glass.index, glass.index, s.inside);
+        s.absorption = glass.absorption;
+        s.normal = reflecting_normal(s.normal, s.geometric, s.view);
+    }
+#endif
 #ifdef NORMAL_MAPS
     if (flags & NORMAL_MAPPED) != 0u && any(s.reflectance > vec3(0.0)) {
         s.normal = reflecting_normal(s.normal, s.geometric, s.view);
@@ -127,7 +168,11 @@ const LEAST_DEMODULATION: f32 = 1e-3;
 // rounded as the f16 texture in between stores it. With GLOSS, specular light is divided by a reflectance of its own.
 fn demodulation(s: Surface) -> vec3<f32> {
 #ifdef GLOSS
+#ifdef TRANSMISSION
+    return rounded_reflectance(s.diffuse + s.transmitted);
+#else
     return rounded_reflectance(s.diffuse);
+#endif
 #else
     return whole_demodulation(s);
 #endif
@@ -135,7 +180,9 @@ fn demodulation(s: Surface) -> vec3<f32> {
 
 // The same for light of both lobes.
 fn whole_demodulation(s: Surface) -> vec3<f32> {
-#ifdef SPECULAR
+#ifdef TRANSMISSION
+    return rounded_reflectance(s.diffuse + s.transmitted + s.reflectance);
+#else ifdef SPECULAR
     return rounded_reflectance(s.diffuse + s.reflectance);
 #else
     return rounded_reflectance(s.diffuse);
@@ -178,19 +225,6 @@ fn fresnel(f0: vec3<f32>, edge: f32, cosine: f32) -> vec3<f32> {
     return f0 + (vec3(grazing) - f0) * (k2 * k2 * k);
 }
 
-// GGX normal distribution (Walter et al. 2007, eq. 33).
-fn distribution(cosine: f32, alpha: f32) -> f32 {
-    let a2 = alpha * alpha;
-    let d = cosine * cosine * (a2 - 1.0) + 1.0;
-    return a2 / (PI * d * d);
-}
-
-// Smith's Λ for GGX (Heitz 2014, eq. 72).
-fn smith(cosine: f32, alpha: f32) -> f32 {
-    let c2 = cosine * cosine;
-    return 0.5 * (sqrt(1.0 + alpha * alpha * max(1.0 - c2, 0.0) / max(c2, 1e-12)) - 1.0);
-}
-
 // Limits of the probability with which the specular lobe is sampled, where both lobes exist.
 const LEAST_SHARE: f32 = 0.1;
 const MOST_SHARE: f32 = 0.9;
@@ -209,9 +243,6 @@ fn specular_share(s: Surface) -> f32 {
 }
 #endif
 
-// Least n·v, so that quotients by it stay finite.
-const LEAST_COSINE: f32 = 1e-4;
-
 struct Scattering {
     // BSDF times cosine.
     value: vec3<f32>,
@@ -221,9 +252,128 @@ struct Scattering {
     // The specular lobe's part of the value.
     specular: vec3<f32>,
 #endif
+#ifdef TRANSMISSION
+    // Part of the value of the lobes that have a width, mirrored or refracted: all but Lambert's.
+    narrow: vec3<f32>,
+#endif
 }
 
+#ifdef TRANSMISSION
+// The mirrored and the transmitted part of the light at a microfacet of glass, and the probability with which a path is mirrored.
+struct Split {
+    mirrored: vec3<f32>,
+    transmitted: vec3<f32>,
+    mirrors: f32,
+}
+
+fn split(s: Surface, cosine: f32) -> Split {
+    let mirrored = mix(s.reflectance, vec3(s.edge), grazing_part(cosine, s.ratio));
+    let transmitted = (1.0 - max(max(mirrored.x, mirrored.y), mirrored.z)) * s.transmitted;
+    let all = luminance(mirrored + transmitted);
+    return Split(mirrored, transmitted, select(1.0, luminance(mirrored) / all, all > 0.0));
+}
+
+// The part of the light that goes straight through one boundary. The ray that is refracted meets both boundaries of a slab at angles that
+// mirror the same, so the outer angle counts at both.
+fn straight_part(s: Surface, cosine: f32) -> vec3<f32> {
+    var outside = s;
+    outside.ratio = min(s.ratio, 1.0 / s.ratio);
+    return split(outside, cosine).transmitted;
+}
+
+fn is_glass(s: Surface) -> bool {
+    return any(s.transmitted > vec3(0.0));
+}
+
+// Probability with which Lambert's lobe of a surface is sampled that transmits, too.
+fn lambert_share(s: Surface) -> f32 {
+    let diffuse = luminance(s.diffuse);
+    let others = luminance(s.reflectance + s.transmitted);
+    return select(clamp(diffuse / (diffuse + others), LEAST_SHARE, MOST_SHARE), 0.0, diffuse <= 0.0);
+}
+
+// The viewer in the space of the surface's normal.
+fn local_view(s: Surface, t: mat2x3<f32>) -> vec3<f32> {
+    return vec3(dot(s.view, t[0]), dot(s.view, t[1]), max(dot(s.view, s.normal), LEAST_COSINE));
+}
+
+fn glass_scattering(s: Surface, light: vec3<f32>) -> Scattering {
+    let t = tangents(s.normal);
+    let l = vec3(dot(light, t[0]), dot(light, t[1]), dot(light, s.normal));
+    let above = l.z > 0.0;
+    // Both normals must agree on the side.
+    if above != (dot(s.geometric, light) > 0.0) {
+        return Scattering();
+    }
+    let both = facets(local_view(s, t), l, s.alpha, s.ratio, s.thin);
+    var mirrored = vec3(0.0);
+    var transmitted = vec3(0.0);
+    var density = 0.0;
+    for (var i = 0u; i < 2u; i++) {
+        let part = split(s, both[i].cosine);
+        mirrored += part.mirrored * both[i].density;
+        transmitted += part.transmitted * both[i].density;
+        density += select(1.0 - part.mirrors, part.mirrors, above) * both[i].density;
+    }
+    let share = lambert_share(s);
+    var result: Scattering;
+    result.narrow = select(transmitted, mirrored, above);
+    result.value = result.narrow;
+    result.density = (1.0 - share) * density;
+    if above {
+        let half_vector = normalize(s.view + light);
+        let left = 1.0 - split(s, max(dot(s.view, half_vector), 0.0)).mirrored;
+        result.value += s.diffuse * left * (l.z / PI);
+        result.density += share * l.z / PI;
+#ifdef GLOSS
+        result.specular = mirrored;
+#endif
+    }
+    return result;
+}
+
+// Samples a direction by the density of `glass_scattering`.
+fn sample_glass(s: Surface, u: vec2<f32>, choice: f32) -> vec3<f32> {
+    let t = tangents(s.normal);
+    let share = lambert_share(s);
+    var local = vec3(0.0);
+    if choice < share {
+        let r = sqrt(u.y);
+        local = vec3(r * cos(2.0 * PI * u.x), r * sin(2.0 * PI * u.x), sqrt(max(1.0 - u.y, 0.0)));
+    } else {
+        let v = local_view(s, t);
+        let m = sample_visible_normal(v, s.alpha, u);
+        let rest = (choice - share) / (1.0 - share);
+        local = leave(v, m, s.ratio, rest < split(s, dot(v, m)).mirrors, s.thin);
+    }
+    var direction = normalize(t[0] * local.x + t[1] * local.y + s.normal * local.z);
+    // What the interpolated normal leads to the wrong side of the true surface is mirrored by that surface.
+    let side = dot(direction, s.geometric);
+    if (side > 0.0) != (local.z > 0.0) {
+        direction -= 2.0 * side * s.geometric;
+    }
+    return direction;
+}
+#endif
+
+#ifdef GLOSS
+// True if a direction that was sampled with this choice is one of the specular lobe.
+fn is_mirrored(s: Surface, choice: f32, direction: vec3<f32>) -> bool {
+#ifdef TRANSMISSION
+    if is_glass(s) {
+        return choice >= lambert_share(s) && dot(direction, s.geometric) > 0.0;
+    }
+#endif
+    return choice < specular_share(s);
+}
+#endif
+
 fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
+#ifdef TRANSMISSION
+    if is_glass(s) {
+        return glass_scattering(s, light);
+    }
+#endif
     let cosine = dot(s.normal, light);
     // Light must arrive above the true surface and above the interpolated one.
     if cosine <= 0.0 || dot(s.geometric, light) <= 0.0 {
@@ -242,7 +392,16 @@ fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
     let value = s.diffuse * (1.0 - f) * (cosine / PI) + specular;
     // Density of visible normals (Heitz 2018, eq. 3) times the Jacobian 1 / (4 v·h).
     let visible = d / (4.0 * nv * (1.0 + lambda_view));
+#ifdef TRANSMISSION
+    var result = Scattering();
+    result.value = value;
+    result.density = mix(cosine / PI, visible, share);
+    result.narrow = specular;
 #ifdef GLOSS
+    result.specular = specular;
+#endif
+    return result;
+#else ifdef GLOSS
     return Scattering(value, mix(cosine / PI, visible, share), specular);
 #else
     return Scattering(value, mix(cosine / PI, visible, share));
@@ -262,17 +421,17 @@ fn tangents(n: vec3<f32>) -> mat2x3<f32> {
 
 // Samples a direction by the density of `scattering`: cosine-weighted, or about a visible normal of the GGX distribution.
 fn sample_direction(s: Surface, u: vec2<f32>, choice: f32) -> vec3<f32> {
+#ifdef TRANSMISSION
+    if is_glass(s) {
+        return sample_glass(s, u, choice);
+    }
+#endif
     let t = tangents(s.normal);
     let angle = 2.0 * PI * u.x;
 #ifdef SPECULAR
     if choice < specular_share(s) {
-        // Spherical caps (Dupuy and Benyoub 2023).
         let v = vec3(dot(s.view, t[0]), dot(s.view, t[1]), max(dot(s.view, s.normal), LEAST_COSINE));
-        let stretched = normalize(vec3(v.xy * s.alpha, v.z));
-        let z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
-        let r = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
-        let h = vec3(r * cos(angle), r * sin(angle), z) + stretched;
-        let m = normalize(vec3(h.xy * s.alpha, h.z));
+        let m = sample_visible_normal(v, s.alpha, u);
         let normal = t[0] * m.x + t[1] * m.y + s.normal * m.z;
         return normalize(2.0 * dot(s.view, normal) * normal - s.view);
     }

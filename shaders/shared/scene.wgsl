@@ -78,7 +78,7 @@ struct Material {
     base_color: vec4<f32>,
     emissive: vec3<f32>,
     // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: has no back faces. Bit 3: blended, covers as much as its opacity. Bit 4: has a
-    // normal map.
+    // normal map. Bit 5: transmits light.
     flags: u32,
     metallic: f32,
     roughness: f32,
@@ -88,10 +88,8 @@ struct Material {
     specular_edge: f32,
     // Reflectance of the dielectric coat at normal incidence.
     specular: vec3<f32>,
-#ifdef NORMAL_MAPS
-    // Texel of `materials` at which the parts begin that few materials have.
+    // Texel of `materials` at which the parts begin that few materials have: a normal map, then a glass.
     extension: u32,
-#endif
     base_color_texture: TextureUse,
     metallic_roughness_texture: TextureUse,
     emissive_texture: TextureUse,
@@ -106,12 +104,31 @@ const UNLIT: u32 = 2u;
 const CULLED: u32 = 4u;
 const BLENDED: u32 = 8u;
 const NORMAL_MAPPED: u32 = 16u;
+const TRANSMITTING: u32 = 32u;
 
 #ifdef NORMAL_MAPS
 struct NormalMap {
     texture: TextureUse,
     // Factor on the first two coordinates.
     scale: f32,
+}
+#endif
+
+// Texels of a normal map.
+const NORMAL_MAP_TEXELS: u32 = 4u;
+
+#ifdef TRANSMISSION
+struct Glass {
+    // Its red channel multiplies `transmission`.
+    texture: TextureUse,
+    // Absorption per unit of length.
+    absorption: vec3<f32>,
+    // Part of the light, of what is not mirrored, that goes through.
+    transmission: f32,
+    // Index of refraction over that of air.
+    index: f32,
+    // 1 for the skin of a body, 0 for a pane without thickness.
+    solid: u32,
 }
 #endif
 
@@ -180,10 +197,7 @@ fn load_material(i: u32) -> Material {
         bitcast<vec4<f32>>(material_word(first)),
         bitcast<vec3<f32>>(emission.xyz), emission.w,
         numbers.x, numbers.y, numbers.z, numbers.w,
-        bitcast<vec3<f32>>(material_word(first + 3u).xyz),
-#ifdef NORMAL_MAPS
-        material_word(first + 3u).w,
-#endif
+        bitcast<vec3<f32>>(material_word(first + 3u).xyz), material_word(first + 3u).w,
         texture_use(first + 4u), texture_use(first + 7u), texture_use(first + 10u), texture_use(first + 13u),
         texture_use(first + 16u),
     );
@@ -193,6 +207,16 @@ fn load_material(i: u32) -> Material {
 // The normal map of a material that has one.
 fn load_normal_map(m: Material) -> NormalMap {
     return NormalMap(texture_use(m.extension), bitcast<f32>(material_word(m.extension + 3u).x));
+}
+#endif
+
+#ifdef TRANSMISSION
+// The glass of a material that transmits light.
+fn load_glass(m: Material) -> Glass {
+    let first = m.extension + select(0u, NORMAL_MAP_TEXELS, (m.flags & NORMAL_MAPPED) != 0u);
+    let numbers = bitcast<vec4<f32>>(material_word(first + 3u));
+    let body = material_word(first + 4u);
+    return Glass(texture_use(first), numbers.xyz, numbers.w, bitcast<f32>(body.x), body.y);
 }
 #endif
 

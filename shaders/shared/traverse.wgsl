@@ -8,6 +8,10 @@
 #ifdef ALPHA_MASK
 #import asvgf::texture::is_hole
 #endif
+#ifdef TRANSMISSION
+#import asvgf::surface::Visible
+#import asvgf::glass_shadow::{begin_shadow, goes_through}
+#endif
 
 // Möller and Trumbore 1997. Returns distance, u, v; the distance is `MISS` if there is no hit in (0, limit).
 fn intersect(origin: vec3<f32>, direction: vec3<f32>, a: vec3<f32>, edge_b: vec3<f32>, edge_c: vec3<f32>, limit: f32) -> vec3<f32> {
@@ -152,6 +156,16 @@ fn traverse(ray: Ray, limit: f32, any_hit: bool) -> Hit {
 #endif
             }
 #endif
+#ifdef TRANSMISSION
+            // Light for matte surfaces goes straight through glass.
+            if closer && any_hit {
+#ifdef INSTANCED
+                closer = !goes_through(Visible(row, instance), t.yz, t.x, ray.direction);
+#else
+                closer = !goes_through(Visible(row, 0u), t.yz, t.x, ray.direction);
+#endif
+            }
+#endif
             if closer {
                 hit.distance = t.x;
                 hit.triangle = row;
@@ -176,5 +190,8 @@ fn closest_hit(ray: Ray) -> Hit {
 
 // True if something lies on the open segment from the origin to `limit`.
 fn occluded(ray: Ray, limit: f32) -> bool {
+#ifdef TRANSMISSION
+    begin_shadow();
+#endif
     return traverse(ray, limit, true).triangle != NO_TRIANGLE;
 }

@@ -38,15 +38,27 @@ const SHARED: &[(&str, &str)] = &[
     #[cfg(feature = "path-tracer")]
     ("ray", include_str!("../../shaders/shared/ray.wgsl")),
     #[cfg(feature = "path-tracer")]
-    ("traverse", include_str!("../../shaders/shared/traverse.wgsl")),
-    #[cfg(feature = "path-tracer")]
     ("few_triangles", include_str!("../../shaders/shared/few_triangles.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("surface", include_str!("../../shaders/shared/surface.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("normal_map", include_str!("../../shaders/shared/normal_map.wgsl")),
     #[cfg(feature = "path-tracer")]
+    ("bent_normal", include_str!("../../shaders/shared/bent_normal.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("ggx", include_str!("../../shaders/shared/ggx.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("glass", include_str!("../../shaders/shared/glass.wgsl")),
+    #[cfg(feature = "path-tracer")]
     ("material", include_str!("../../shaders/shared/material.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("throughput", include_str!("../../shaders/shared/throughput.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("glass_path", include_str!("../../shaders/shared/glass_path.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("glass_shadow", include_str!("../../shaders/shared/glass_shadow.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("traverse", include_str!("../../shaders/shared/traverse.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("light", include_str!("../../shaders/shared/light.wgsl")),
     #[cfg(feature = "path-tracer")]

@@ -35,6 +35,8 @@ features! {
     VertexColors,
     /// GGX lobe.
     Specular,
+    /// Light goes through surfaces, refracted or straight.
+    Transmission,
     /// Test of the opacity and of the facing during traversal.
     AlphaMask,
     /// Rays meet a surface with the probability of its opacity.

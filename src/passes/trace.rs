@@ -11,6 +11,7 @@ pub(crate) static PASS: Pass = Pass {
         shared::GEOMETRY,
         &[
             knows(Specular),
+            knows(Transmission),
             knows(Lights),
             knows(Emitters),
             knows(PunctualLights),

@@ -57,6 +57,11 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
         ),
         (Specular, contents.specular, ["a material is not purely Lambertian", "all are Lambertian: no GGX lobe"]),
         (
+            Transmission,
+            contents.transmission,
+            ["light goes through a material", "no light goes through a material: nothing is refracted"],
+        ),
+        (
             AlphaMask,
             contents.alpha_mask,
             ["a material has holes", "no material has holes: any hit will do for a shadow"],

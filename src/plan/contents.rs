@@ -17,6 +17,8 @@ pub struct SceneContents {
     pub vertex_colors: bool,
     /// Some surface is not purely Lambertian.
     pub specular: bool,
+    /// Light goes through some surface, refracted or straight.
+    pub transmission: bool,
     /// No surface is glossy, although shaders could show one, see [`SceneContents::everything`]: light is one signal.
     pub matte: bool,
     /// Some material has holes where its opacity is low, or no back faces.

@@ -17,6 +17,7 @@ const ALL: SceneContents = SceneContents {
     normal_maps: true,
     vertex_colors: true,
     specular: true,
+    transmission: true,
     matte: false,
     alpha_mask: true,
     alpha_blend: true,

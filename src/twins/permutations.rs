@@ -25,7 +25,7 @@ fn noop_device() -> (Device, Queue) {
 
 /// All combinations of contents. The test checks some 150 shaders a second, and all in a quarter of a minute.
 fn contents() -> Vec<SceneContents> {
-    (0_u32..1 << 14)
+    (0_u32..1 << 15)
         // Only images may be folded. Folding changes one function, so it is combined with a part of the rest.
         .filter(|bits| bits >> 12 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1101_0110_0000 == 0)
         // There is no alpha mask if each triangle is tested.
@@ -36,6 +36,8 @@ fn contents() -> Vec<SceneContents> {
         .filter(|bits| bits >> 11 & 1 == 0 || bits >> 4 & 1 == 1 && bits >> 2 & 3 == 3)
         // Normal maps are images on meshes with normals, and independent of the kinds of light.
         .filter(|bits| bits >> 13 & 1 == 0 || bits >> 1 & 3 == 3 && bits >> 5 & 15 == 15)
+        // Glass shines; images and colours are independent of it.
+        .filter(|bits| bits >> 14 & 1 == 0 || bits >> 1 & 7 == 6 && bits >> 9 & 0b1_1011 == 0)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
             SceneContents {
@@ -53,6 +55,7 @@ fn contents() -> Vec<SceneContents> {
                 alpha_blend: bit(11),
                 folded_images: bit(12),
                 normal_maps: bit(13),
+                transmission: bit(14),
                 ..Default::default()
             }
         })

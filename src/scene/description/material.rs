@@ -41,6 +41,13 @@ pub struct Material {
     pub specular_texture: Option<Texture>,
     /// Colour (sRGB) multiplies `specular` (KHR_materials_specular).
     pub specular_color_texture: Option<Texture>,
+    /// Part of the light, of what the dielectric part does not mirror, that goes through the surface instead of being scattered by it, 0…1
+    /// (KHR_materials_transmission); multiplies the red channel of the texture. The base colour tints it at each surface.
+    pub transmission: f32,
+    /// Red = transmission (linear).
+    pub transmission_texture: Option<Texture>,
+    /// The inside of a surface that transmits light.
+    pub interior: Interior,
     /// True if back faces are invisible to the camera and to light, as in a rasterizer that culls them. Outlines made of hulls need
     /// this.
     pub culled: bool,
@@ -67,6 +74,9 @@ impl Default for Material {
             specular_edge: 1.0,
             specular_texture: None,
             specular_color_texture: None,
+            transmission: 0.0,
+            transmission_texture: None,
+            interior: Interior::default(),
             culled: false,
         }
     }
@@ -78,6 +88,11 @@ impl Material {
         !self.unlit && self.emissive.iter().any(|&e| e > 0.0)
     }
 
+    /// True if light goes through the surface.
+    pub(crate) fn transmits(&self) -> bool {
+        !self.unlit && self.transmission > 0.0
+    }
+
     /// All textures in use, each with the name of its field.
     pub(crate) fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
         [
@@ -87,9 +102,38 @@ impl Material {
             ("emissive_texture", self.emissive_texture),
             ("specular_texture", self.specular_texture),
             ("specular_color_texture", self.specular_color_texture),
+            ("transmission_texture", self.transmission_texture),
         ]
         .into_iter()
         .filter_map(|(name, texture)| Some((name, texture?)))
+    }
+}
+
+/// The inside of a surface that transmits light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interior {
+    /// Index of refraction over that of air, 1…10. It bends light, and gives what is mirrored as a function of the angle between
+    /// `specular` and `specular_edge`. Bodies in each other each refract as against air.
+    pub index: f32,
+    /// `None` for a pane without thickness, through which light goes straight. For the skin of a closed body (KHR_materials_volume), the
+    /// absorption per unit of length of the world, each ≥ 0: light fades to exp(−absorption · length).
+    pub absorption: Option<[f32; 3]>,
+}
+
+impl Interior {
+    /// Greatest index of refraction.
+    pub const MOST_INDEX: f32 = 10.0;
+
+    /// A body that leaves this part of light, each above 0 and at most 1, over this length above 0.
+    pub fn absorbing(index: f32, color: [f32; 3], length: f32) -> Self {
+        Self { index, absorption: Some(color.map(|left| -left.ln() / length)) }
+    }
+}
+
+impl Default for Interior {
+    /// A pane of window glass.
+    fn default() -> Self {
+        Self { index: 1.5, absorption: None }
     }
 }
 

@@ -22,7 +22,7 @@ mod view;
 pub use animation::{Animation, Channel, Interpolation, Target};
 pub use camera::Perspective;
 pub use light::{Environment, Light, LightKind};
-pub use material::{Alpha, Material};
+pub use material::{Alpha, Interior, Material};
 pub use mesh::Mesh;
 pub use node::{IDENTITY, Matrix, Node, Transform, WorldMatrix};
 pub use pose::Pose;

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use crate::scene::description::{
-    Alpha, Animation, Channel, Environment, Image, Interpolation, Light, LightKind, Material, Mesh, Node, Scene,
+    Alpha, Animation, Channel, Environment, Image, Interior, Interpolation, Light, LightKind, Material, Mesh, Node, Scene,
     SceneError, Target, Texture, Transform,
 };
 
@@ -83,6 +83,14 @@ impl Scene {
         unit(material.specular_edge, || format!("{element}.specular_edge"))?;
         let scale = material.normal_scale;
         rule(scale.is_finite(), || format!("{element}.normal_scale"), || format!("{scale} is not finite"))?;
+        unit(material.transmission, || format!("{element}.transmission"))?;
+        let Interior { index, absorption } = material.interior;
+        rule(
+            (1.0..=Interior::MOST_INDEX).contains(&index),
+            || format!("{element}.interior.index"),
+            || format!("{index} is not within 1…{}", Interior::MOST_INDEX),
+        )?;
+        non_negative(&absorption.unwrap_or_default(), || format!("{element}.interior.absorption"))?;
         non_negative(&material.emissive, || format!("{element}.emissive"))?;
         if let Alpha::Mask(cutoff) = material.alpha {
             non_negative(&[cutoff], || format!("{element}.alpha"))?;

@@ -81,7 +81,7 @@ impl<'a> Assembly<'a> {
 
         let used = contents(scene, geometry.layout);
         let drawn: usize = instances.iter().map(|instance| instance.row_count as usize).sum();
-        let few_triangles = capacity.on_cpu && drawn <= facets::MOST && !used.alpha_mask;
+        let few_triangles = capacity.on_cpu && drawn <= facets::MOST && !used.alpha_mask && !used.transmission;
         let corners = || geometry.rows.iter().map(|row| row.map(corner)).collect();
         let mut arrangement = Arrangement {
             centre,

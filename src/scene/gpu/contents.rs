@@ -20,7 +20,9 @@ pub(crate) fn contents(scene: &Scene, layout: Layout) -> SceneContents {
         shading_normals: layout.normals,
         normal_maps: layout.tangents && used().any(|m| m.normal_texture.is_some()),
         vertex_colors: layout.color.is_some(),
-        specular: used().any(|m| !m.unlit && (m.specular != [0.0; 3] || m.metallic > 0.0)),
+        // Glass mirrors at grazing incidence, whatever its reflectance is.
+        specular: used().any(|m| !m.unlit && (m.specular != [0.0; 3] || m.metallic > 0.0) || m.transmits()),
+        transmission: used().any(Material::transmits),
         alpha_blend: used().any(|m| m.alpha == Alpha::Blend),
         alpha_mask: used().any(|m| m.alpha != Alpha::Opaque || m.culled),
         emitters: used().any(Material::is_emitter),

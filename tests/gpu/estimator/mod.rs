@@ -3,6 +3,7 @@
 mod agreement;
 mod area;
 mod furnace;
+mod glass;
 mod large;
 mod materials;
 mod normals;

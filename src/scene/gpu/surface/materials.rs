@@ -2,7 +2,7 @@
 
 use super::places::Place;
 use super::texture_use::{GpuTexture, texture_use};
-use crate::scene::description::{Alpha, Material};
+use crate::scene::description::{Alpha, Interior, Material};
 use crate::scene::gpu::memory::folded::{Texel, texels};
 use bytemuck::{Pod, Zeroable};
 
@@ -35,8 +35,29 @@ pub(crate) struct GpuNormalMap {
     pad: [u32; 3],
 }
 
+/// `Glass` of scene.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub(crate) struct GpuGlass {
+    texture: GpuTexture,
+    absorption: [f32; 3],
+    transmission: f32,
+    index: f32,
+    solid: u32,
+    pad: [u32; 2],
+}
+
 /// Bit of `flags` of a material whose extension has a normal map.
 const NORMAL_MAP: u32 = 1 << 4;
+
+/// Bit of `flags` of a material whose extension has a glass.
+const GLASS: u32 = 1 << 5;
+
+/// Least index of refraction. At 1 the normal of a facet that refracts is not defined; here light bends by a thousandth.
+const LEAST_INDEX: f32 = 1.001;
+
+/// Greatest absorption per unit of length. Its products with the longest ray stay finite.
+const MOST_ABSORPTION: f32 = 1e6;
 
 /// Greatest scale of a normal map. Beyond, all normals lie in the surface, and their squares may be infinite.
 const MOST_SCALE: f32 = 1e6;
@@ -49,10 +70,14 @@ pub(crate) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &
     let mut records: Vec<GpuMaterial> = Vec::with_capacity(materials.len());
     for (m, &factor) in materials.iter().zip(emission) {
         let mut record = plain(m, factor, images);
+        record.extension = (first + extensions.len()) as u32;
         if m.normal_texture.is_some() {
             record.flags |= NORMAL_MAP;
-            record.extension = (first + extensions.len()) as u32;
             extensions.extend_from_slice(texels(&[normal_map(m, images)]));
+        }
+        if m.transmits() {
+            record.flags |= GLASS;
+            extensions.extend_from_slice(texels(&[glass(m, images)]));
         }
         records.push(record);
     }
@@ -64,6 +89,18 @@ pub(crate) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &
 fn normal_map(material: &Material, images: &[Place]) -> GpuNormalMap {
     let scale = material.normal_scale.clamp(-MOST_SCALE, MOST_SCALE);
     GpuNormalMap { texture: texture_use(material.normal_texture, images), scale, pad: [0; 3] }
+}
+
+fn glass(material: &Material, images: &[Place]) -> GpuGlass {
+    let Interior { index, absorption } = material.interior;
+    GpuGlass {
+        texture: texture_use(material.transmission_texture, images),
+        absorption: absorption.unwrap_or_default().map(|channel| channel.min(MOST_ABSORPTION)),
+        transmission: material.transmission,
+        index: index.max(LEAST_INDEX),
+        solid: absorption.is_some().into(),
+        pad: [0; 2],
+    }
 }
 
 /// A material without its extension.
@@ -111,6 +148,8 @@ mod tests {
         assert_layout_with(&features, "Material", material, size_of::<GpuMaterial>());
         let map = fields!(GpuNormalMap: texture, scale);
         assert_layout_with(&features, "NormalMap", map, size_of::<GpuNormalMap>());
+        let glass = fields!(GpuGlass: texture, absorption, transmission, index, solid);
+        assert_layout_with(&[Feature::Transmission, Feature::Specular], "Glass", glass, size_of::<GpuGlass>());
     }
 
     #[test]
@@ -122,7 +161,7 @@ mod tests {
         let all = materials(&[Material::default(), mapped.clone(), mapped], &emission, &[place]);
         assert_eq!(all.len(), 3 * record + 2 * 4);
         let extension = |material: usize| all[material * record + 3][3] as usize;
-        assert_eq!([0, 1, 2].map(extension), [0, 3 * record, 3 * record + 4]);
+        assert_eq!([1, 2].map(extension), [3 * record, 3 * record + 4]);
         assert_eq!(all[extension(2)], [7, 4, 2, 1 << 31]);
         assert_eq!(f32::from_bits(all[extension(2) + 3][0]), 0.5);
         // Plain materials take no more than their records.

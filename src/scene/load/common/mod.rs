@@ -11,7 +11,6 @@ pub(super) mod folder;
 #[cfg(any(feature = "gltf", feature = "obj"))]
 mod ktx2;
 #[cfg(any(feature = "gltf", feature = "obj"))]
-pub(super) mod pane;
 #[cfg(any(feature = "gltf", feature = "obj"))]
 pub(super) mod recognise;
 #[cfg(any(feature = "gltf", feature = "obj"))]

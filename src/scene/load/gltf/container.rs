@@ -12,7 +12,7 @@ use crate::scene::load::common::recognise::foreign;
 use crate::scene::load::common::report::{Fault, Report};
 
 /// The extensions that are honoured.
-const READ: [&str; 11] = [
+const READ: [&str; 12] = [
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
     "KHR_lights_punctual",
@@ -22,6 +22,7 @@ const READ: [&str; 11] = [
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
 ];

@@ -152,17 +152,6 @@ impl<'a> Images<'a> {
         self.add(&name, bytes).map(Some)
     }
 
-    /// The same texture, opaque everywhere.
-    pub fn opaque(&mut self, texture: Texture) -> Texture {
-        let Some(image) = self.images.get(texture.image) else { return texture };
-        if image.texels.iter().all(|texel| texel[3] == 255) {
-            return texture;
-        }
-        let texels = image.texels.iter().map(|&[r, g, b, _]| [r, g, b, 255]).collect();
-        self.images.push(Image { name: format!("{} (opaque)", image.name), texels, ..*image });
-        Texture { image: self.images.len() - 1, ..texture }
-    }
-
     fn add(&mut self, name: &str, bytes: &[u8]) -> Result<usize, String> {
         let image = decode(name, bytes)?;
         self.texels += image.texels.len();

@@ -11,7 +11,7 @@ use super::glossiness;
 use super::image::Images;
 use super::source::Source;
 use super::transmission;
-use crate::scene::description::{Alpha, Material, Scene, Texture};
+use crate::scene::description::{Alpha, Interior, Material, Scene, Texture};
 use crate::scene::load::common::report::Report;
 
 /// Index of refraction of the dielectrics of glTF 2.0, unless KHR_materials_ior gives another.
@@ -71,7 +71,8 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
         }
         None => {
             let material = metallic_roughness(source, common, element, images, report);
-            transmission::apply(source, material, element, images, report)
+            let index = ior(source).unwrap_or(IOR).clamp(1.0, Interior::MOST_INDEX);
+            transmission::apply(source, material, index, element, images, report)
         }
     }
 }
@@ -128,6 +129,16 @@ fn metallic_roughness(
     specular(source, material, element, images, report)
 }
 
+/// The index of refraction, where 0 stands for infinity; as an error, one that is not read.
+fn ior(source: &MaterialSource) -> Result<f32, f32> {
+    let extension = source.extensions.as_ref().and_then(|extensions| extensions.ior.as_ref());
+    match extension.map_or(IOR, |extension| extension.ior.0) {
+        0.0 => Ok(f32::INFINITY),
+        ior if ior >= 1.0 && ior.is_finite() => Ok(ior),
+        ior => Err(ior),
+    }
+}
+
 /// The dielectric part, from KHR_materials_ior and KHR_materials_specular:
 /// F₀ = min(((n − 1) / (n + 1))² · color, 1) · factor, F₉₀ = factor.
 fn specular(
@@ -138,12 +149,10 @@ fn specular(
     report: &mut Report,
 ) -> Material {
     let extensions = source.extensions.as_ref();
-    let ior = extensions.and_then(|extensions| extensions.ior.as_ref()).map_or(IOR, |extension| extension.ior.0);
-    let base = match ior {
-        // 0 stands for infinity.
-        0.0 => 1.0,
-        ior if ior >= 1.0 && ior.is_finite() => reflectance(ior),
-        ior => {
+    let base = match ior(source) {
+        Ok(f32::INFINITY) => 1.0,
+        Ok(ior) => reflectance(ior),
+        Err(ior) => {
             let reason = format!("{ior} is neither 0 nor finite and at least 1; {IOR} is used");
             report.warn(format!("{element}.KHR_materials_ior.ior"), reason);
             reflectance(IOR)

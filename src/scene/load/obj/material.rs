@@ -4,7 +4,8 @@
 //!   black `Kd` that reflects is a metal. Models (`illum`) 0 and 1 are without highlights.
 //! - `Pr` and `Pm`, and their maps, are the metallic-roughness model of glTF. `Ks` has no place there: a dielectric reflects by its index
 //!   of refraction (`Ni`, 1.5 by default). A map replaces its number, as in Blender, which writes an unused number beside each map.
-//! - Glass (`illum` 4, 6, 7, 9) is drawn as a thin pane ([`thin_pane`]), with a warning. If its `d` is below 1, that is its opacity.
+//! - Glass (`illum` 4, 6, 7, 9) transmits `Tf`, white by default. OBJ files do not say whether faces are the skin of a body, so glass is a
+//!   pane through which light goes straight. If its `d` is below 1, that is its opacity.
 //! - `d` is opacity: the part that the surface covers of everything behind it. It takes precedence over `Tr` = 1 − `d`, which some
 //!   exporters write the other way round.
 //! - `map_d` is opacity for each texel. If it is the same file as `map_Kd` and that has an alpha channel, it is this channel. Otherwise it
@@ -17,8 +18,7 @@ use super::map::{Channel, Map};
 use super::source::{Source, Texture as Kind};
 use super::text::shortened;
 use super::textures::{Raw, Textures};
-use crate::scene::description::{Alpha, Material, Texture};
-use crate::scene::load::common::pane::thin_pane;
+use crate::scene::description::{Alpha, Interior, Material, Texture};
 use crate::scene::load::common::report::Report;
 
 /// Index of refraction of most dielectrics.
@@ -154,8 +154,12 @@ impl Source {
 
     /// Reflectance of a dielectric at normal incidence.
     fn normal_reflectance(&self) -> f32 {
-        let index = self.refraction.filter(|index| *index > 1.0 && *index <= 4.0).unwrap_or(GLASS);
+        let index = self.index();
         ((index - 1.0) / (index + 1.0)).powi(2)
+    }
+
+    fn index(&self) -> f32 {
+        self.refraction.filter(|index| *index > 1.0 && *index <= 4.0).unwrap_or(GLASS)
     }
 
     /// The use of opacity. Nothing else decides it.
@@ -214,11 +218,18 @@ impl Source {
                 material
             }
             Model::Glass(model) => {
-                let reason = format!("illum {model} (glass) is drawn as a thin pane that neither refracts nor tints");
-                report.warn(element, reason);
+                report.warn(element, format!("illum {model} (glass) is drawn as a pane that does not refract"));
+                let [r, g, b] = unit_color(filter, element, report);
                 // Glass scatters nothing, whatever Kd says.
-                let clear = Material { base_color: [1.0; 4], base_color_texture: None, ..material };
-                thin_pane(clear, (filter.iter().sum::<f32>() / 3.0).clamp(0.0, 1.0), 1.0)
+                Material {
+                    base_color: [r, g, b, 1.0],
+                    base_color_texture: None,
+                    metallic: 0.0,
+                    metallic_roughness_texture: None,
+                    transmission: 1.0,
+                    interior: Interior { index: self.index(), absorption: None },
+                    ..material
+                }
             }
             _ if filter != [1.0; 3] => {
                 report.warn(element, "Tf (coloured transmission) is not read");
