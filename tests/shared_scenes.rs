@@ -150,8 +150,6 @@ fn warnings_say_what_is_left_out() {
         &[
             "KHR_materials_anisotropy",
             "KHR_materials_clearcoat",
-            "KHR_materials_transmission",
-            "KHR_materials_volume",
             "AnisotropyBarnLamp_occlusionroughnessmetal.ktx2\" is a KTX2 file",
         ],
     );

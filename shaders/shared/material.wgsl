@@ -253,12 +253,17 @@ struct Scattering {
     specular: vec3<f32>,
 #endif
 #ifdef TRANSMISSION
-    // Part of the value of the lobes that have a width, mirrored or refracted: all but Lambert's.
+    // Part of the value by which lights behind glass are found with scattered rays, see throughput.wgsl: that of narrow lobes.
     narrow: vec3<f32>,
 #endif
 }
 
 #ifdef TRANSMISSION
+// GGX widths up to which a lobe is narrow, and from which it is as wide as Lambert's for the search of lights behind glass. In between
+// it is partly one and partly the other.
+const NARROW: f32 = 0.04;
+const WIDE: f32 = 0.25;
+
 // The mirrored and the transmitted part of the light at a microfacet of glass, and the probability with which a path is mirrored.
 struct Split {
     mirrored: vec3<f32>,
@@ -396,7 +401,7 @@ fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
     var result = Scattering();
     result.value = value;
     result.density = mix(cosine / PI, visible, share);
-    result.narrow = specular;
+    result.narrow = specular * (1.0 - smoothstep(NARROW, WIDE, s.alpha));
 #ifdef GLOSS
     result.specular = specular;
 #endif

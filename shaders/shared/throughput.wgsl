@@ -79,8 +79,8 @@ fn add_scattered(light: ptr<function, Light>, throughput: Throughput, towards: S
 // other. Each counts for some of the lobes alone:
 //
 //   surface            light sample through glass    scattered ray through glass
-//   opaque, Lambert    yes                           no
-//   opaque, GGX        no                            yes
+//   opaque, wide       yes                           no
+//   opaque, narrow     no                            yes
 //   glass, camera      no                            yes
 //
 // So a floor under glass has no caustics, and a mirror shows glass as the camera sees it. Lights without area are found by light samples
@@ -93,7 +93,7 @@ struct Ways {
     refracted: Throughput,
 }
 
-// Lambert's part.
+// The part of wide lobes.
 fn matte(scattered: Scattering) -> Scattering {
     var result = scattered;
     result.value -= scattered.narrow;
@@ -103,7 +103,7 @@ fn matte(scattered: Scattering) -> Scattering {
     return result;
 }
 
-// The part of the other lobes.
+// The part of narrow lobes.
 fn narrow(scattered: Scattering) -> Scattering {
     var result = scattered;
     result.value = scattered.narrow;

@@ -18,6 +18,9 @@ const ROUNDS_PER_LEVEL: u32 = 4;
 /// Expected bounces of a path, at most, once Russian roulette has begun, which ends at least 1 in 20 paths at each bounce.
 const ROULETTE_REACH: u32 = 20;
 
+/// Expected boundaries of glass on a path, at most. They are no bounces.
+const BOUNDARIES: u32 = 8;
+
 /// A frame's paths, divided among dispatches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Batches {
@@ -31,7 +34,8 @@ impl Batches {
     pub fn of(contents: &SceneContents, tracer: &TracerSettings) -> Self {
         let rounds_per_ray = if contents.few_triangles { 1 } else { 1 + ROUNDS_PER_LEVEL * contents.levels };
         // Each surface sends one ray towards a light and one onwards.
-        let surfaces = 1 + tracer.bounces.min(tracer.roulette.saturating_add(ROULETTE_REACH));
+        let glass = if contents.transmission { BOUNDARIES } else { 0 };
+        let surfaces = 1 + glass + tracer.bounces.min(tracer.roulette.saturating_add(ROULETTE_REACH));
         let rounds_per_surface = contents.environment_run.saturating_add(2 * rounds_per_ray);
         // If surfaces blend, each path begins with a ray from the camera.
         let begins = if contents.alpha_blend { rounds_per_ray } else { 0 };
@@ -91,6 +95,11 @@ mod tests {
             )
         };
         assert!(of_run(32).count() > of_run(1).count(), "texels of a cell are rounds too");
+        let with_glass = |transmission| {
+            let contents = SceneContents { levels: 12, transmission, ..Default::default() };
+            Batches::of(&contents, &TracerSettings { samples: 1024, ..Default::default() })
+        };
+        assert!(with_glass(true).count() > with_glass(false).count(), "boundaries of glass are rounds too");
         // Roulette ends paths long before this many bounces.
         assert_eq!(batches(1024, 100, 12), batches(1024, 1024, 12));
     }

@@ -115,32 +115,77 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "texel_radiance",
         "unpack_rgb",
     ][..];
-    let maps = ["load_normal_map", "mapped_normal", "reflecting_normal", "tangent_at", "unpack_tangent"];
+    let maps = ["load_normal_map", "mapped_normal", "tangent_at", "unpack_tangent"];
     let mut images = [&maps[..], images].concat();
     images.sort_unstable();
     let normals = ["interpolated_normal", "octahedral", "transform_normal", "unpack_octahedral"];
     let mut normals = [&maps[..], &normals[..]].concat();
     normals.sort_unstable();
-    let cases: [(SceneContents, &[&str]); 11] = [
+    let glass = [
+        "absorbed",
+        "add_light_sample",
+        "arriving_part",
+        "begin_shadow",
+        "body_before",
+        "boundaries",
+        "dielectric",
+        "enter",
+        "entered",
+        "eye",
+        "facets",
+        "glass_scattering",
+        "goes_through",
+        "grazing_part",
+        "is_glass",
+        "is_refracted",
+        "lambert_share",
+        "leave",
+        "load_glass",
+        "local_view",
+        "matte",
+        "met_glass",
+        "mirroring_facet",
+        "narrow",
+        "optical_depth",
+        "other_side",
+        "refracting_facet",
+        "sample_glass",
+        "split",
+        "straight_part",
+        "straight_through",
+        "sum",
+        "visible_normals",
+        "ways_behind",
+    ];
+    let mut shine = [
+        &glass[..],
+        &[
+            "distribution",
+            "fresnel",
+            "is_mirrored",
+            "of_lobe",
+            "pack_displacement",
+            "reflecting_normal",
+            "sample_visible_normal",
+            "smith",
+            "specular_demodulation",
+            "specular_radiance_out",
+            "specular_share",
+        ],
+    ]
+    .concat();
+    shine.sort_unstable();
+    let cases: [(SceneContents, &[&str]); 12] = [
         (SceneContents { instanced: false, ..ALL }, moving),
         (SceneContents { textures: false, normal_maps: false, ..ALL }, &images),
         (SceneContents { shading_normals: false, normal_maps: false, ..ALL }, &normals),
         (SceneContents { normal_maps: false, ..ALL }, &maps),
         (SceneContents { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
         (
-            SceneContents { specular: false, ..ALL },
-            &[
-                "distribution",
-                "fresnel",
-                "of_lobe",
-                "pack_displacement",
-                "reflecting_normal",
-                "smith",
-                "specular_demodulation",
-                "specular_radiance_out",
-                "specular_share",
-            ],
+            SceneContents { specular: false, transmission: false, ..ALL },
+            &shine,
         ),
+        (SceneContents { transmission: false, ..ALL }, &glass),
         (SceneContents { alpha_mask: false, alpha_blend: false, ..ALL }, &opacity),
         (SceneContents { alpha_blend: false, ..ALL }, &blending),
         (SceneContents { emitters: false, ..ALL }, &["emitter_density"]),

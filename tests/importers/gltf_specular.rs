@@ -1,6 +1,6 @@
-//! Dielectric reflection: KHR_materials_ior, KHR_materials_specular, KHR_materials_pbrSpecularGlossiness.
+//! Dielectrics: KHR_materials_ior, KHR_materials_transmission, KHR_materials_volume, KHR_materials_specular, KHR_materials_pbrSpecularGlossiness.
 
-use asvgf::scene::{Alpha, Material, Scene};
+use asvgf::scene::{Alpha, Interior, Material, Scene};
 use serde_json::{Value, json};
 
 use crate::common::*;
@@ -68,17 +68,52 @@ fn glossiness_becomes_roughness() {
 }
 
 #[test]
-fn glass_is_a_thin_pane() {
-    let pane = json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.5}});
-    let warned = [("materials[0].KHR_materials_transmission", "thin pane")];
-    let pane = scene(pane, &warned).materials[0].clone();
-    // 4 % of the light is reflected like a mirror, the rest goes through.
-    assert_eq!(pane.alpha, Alpha::Blend);
-    assert_close(&[pane.base_color[0], pane.base_color[3]], &[0.0, 0.04], 1e-6);
-    assert_close(&pane.specular, &[1.0; 3], 1e-5);
-    let half = scene(json!({"KHR_materials_transmission": {"transmissionFactor": 0.5}}), &warned).materials[0].clone();
-    // With τ = 0.48: the colours that a ray meets, times the probability of meeting them, are (1 − t)(1 − F₀) = 0.48 and F₀ = 0.04.
-    assert_close(&[half.base_color[3], half.base_color[0] * 0.52, half.specular[0] * 0.52], &[0.52, 0.48, 0.04], 1e-5);
+fn transmission_and_volume_are_glass() {
+    let pane = material(json!({"KHR_materials_transmission": {"transmissionFactor": 0.75}}));
+    assert_eq!((pane.transmission, pane.interior), (0.75, Interior { index: 1.5, absorption: None }));
     let none = material(json!({"KHR_materials_transmission": {}}));
-    assert_eq!((none.alpha, none.base_color[3]), (Alpha::Opaque, 1.0));
+    assert_eq!((none.transmission, none.alpha), (0.0, Alpha::Opaque));
+    let body = |volume: Value| {
+        json!({
+            "KHR_materials_transmission": {"transmissionFactor": 1, "transmissionTexture": {"index": 0}},
+            "KHR_materials_ior": {"ior": 1.33},
+            "KHR_materials_volume": volume,
+        })
+    };
+    let thin = material(body(json!({"attenuationDistance": 1, "attenuationColor": [0.5, 0.5, 0.5]})));
+    assert_eq!(thin.interior, Interior { index: 1.33, absorption: None }, "a thickness of 0 is a pane");
+    let clear = material(body(json!({"thicknessFactor": 0.1})));
+    assert_eq!(clear.interior.absorption, Some([0.0; 3]), "an infinite distance absorbs nothing");
+    assert!(clear.transmission_texture.is_some());
+    let tinted = body(json!({"thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [1, 0.5, 0.25]}));
+    let absorption = material(tinted).interior.absorption.unwrap();
+    let half = 0.5 * 2.0_f32.ln();
+    assert_close(&absorption, &[0.0, half, 2.0 * half], 1e-6);
+    // Black at the distance is as near to black as a number comes.
+    let black = body(json!({"thicknessFactor": 1, "attenuationDistance": 1, "attenuationColor": [0, 0, 0]}));
+    assert!(material(black).interior.absorption.unwrap().iter().all(|sigma| (13.0..14.0).contains(sigma)));
+}
+
+#[test]
+fn glass_that_is_wrong_costs_itself() {
+    let body = |volume: Value| {
+        json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": volume})
+    };
+    let of = |volume: Value, element: &str, reason: &str| {
+        scene(body(volume), &[(element, reason)]).materials[0].interior.absorption
+    };
+    assert_eq!(of(json!({"thicknessFactor": -1}), "thicknessFactor", "-1 is not at least 0; 0 is used"), None);
+    let distance = json!({"thicknessFactor": 1, "attenuationDistance": 0, "attenuationColor": [0.5, 1, 1]});
+    assert_eq!(of(distance, "attenuationDistance", "0 is not above 0; the volume absorbs nothing"), Some([0.0; 3]));
+    let color = json!({"thicknessFactor": 1, "attenuationDistance": 1, "attenuationColor": [2, 1, 1]});
+    assert_eq!(of(color, "attenuationColor", "2 is outside 0…1"), Some([0.0; 3]));
+    let alone = json!({"KHR_materials_volume": {"thicknessFactor": 1}});
+    let opaque = scene(alone, &[("KHR_materials_volume", "no effect without KHR_materials_transmission")]);
+    assert_eq!(opaque.materials[0].transmission, 0.0);
+    let index = json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 0.5}});
+    assert_eq!(scene(index, &[("KHR_materials_ior.ior", "1.5 is used")]).materials[0].interior.index, 1.5);
+    // Infinity mirrors everything, whatever its index.
+    let mirror = json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 0}});
+    let mirror = material(mirror);
+    assert_eq!((mirror.specular, mirror.interior.index), ([1.0; 3], Interior::MOST_INDEX));
 }

@@ -84,13 +84,16 @@ fn illumination_models() {
     }
     for glass in ["4", "6", "7", "9"] {
         let loaded = made(glass);
-        assert_warnings(&loaded, &[("material \"m\"", &format!("illum {glass} (glass) is drawn as a thin pane"))]);
+        assert_warnings(&loaded, &[("material \"m\"", &format!("illum {glass} (glass) is drawn as a pane that does not refract"))]);
         let material = &loaded.scene.materials[0];
-        assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Blend), "no mirror");
-        // 4 % of the light is reflected, the rest goes through.
-        assert_close(&[material.base_color[3], material.specular[0] * 0.04], &[0.04; 2], 1e-6);
+        assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Opaque), "no mirror");
+        assert_eq!((material.transmission, material.interior.absorption), (1.0, None), "a pane");
+        assert_eq!((material.base_color, material.interior.index), ([1.0; 4], 1.5));
+        assert_close(&material.specular, &[0.04; 3], 1e-6);
     }
     assert_warnings(&made("12"), &[("material \"m\"", "illum 12 is not known; 2 is used")]);
+    let tinted = &material("illum 6\nNi 1.33\nTf 1 0.5 0.25\n").scene.materials[0];
+    assert_eq!((tinted.base_color, tinted.interior.index), ([1.0, 0.5, 0.25, 1.0], 1.33));
     // One defect gives one warning.
     assert_warnings(&material("illum 9\nd 0.75\nTf 1 0 0\n"), &[("m", "illum 9 (glass) does not refract")]);
     assert_warnings(&material("illum 2\nTf 1 1 1\n"), &[]);

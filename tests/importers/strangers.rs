@@ -82,26 +82,6 @@ fn textured(texel: [u8; 4], material: serde_json::Value) -> Loaded {
 }
 
 #[test]
-fn glass_heeds_its_textures() {
-    let glass = json!({"KHR_materials_transmission": {"transmissionFactor": 1}});
-    let pane = |loaded: &Loaded| {
-        assert_warnings(loaded, &[("KHR_materials_transmission", "thin pane")]);
-        loaded.scene.materials[0].clone()
-    };
-    // The metallic factor is 1 if it is absent; the texture says 0.
-    let dielectric = json!({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}}, "extensions": glass});
-    assert_close(&[pane(&textured([0, 255, 0, 255], dielectric)).base_color[3]], &[0.04], 1e-6);
-    // Black glass lets nothing through.
-    let black =
-        json!({"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorTexture": {"index": 0}}, "extensions": glass});
-    assert_close(&[pane(&textured([0, 0, 0, 255], black.clone())).base_color[3]], &[1.0], 1e-6);
-    // The texture's opacity has no meaning for an opaque material.
-    let loaded = textured([255, 255, 255, 0], black);
-    let texture = pane(&loaded).base_color_texture.unwrap();
-    assert_eq!(loaded.scene.images[texture.image].texels, [[255; 4]]);
-}
-
-#[test]
 fn extensions_that_are_not_declared_are_named() {
     let loaded = textured([1; 4], json!({"extensions": {"KHR_materials_sheen": {}}}));
     assert_warnings(&loaded, &[("extension KHR_materials_sheen", "not read")]);

@@ -66,6 +66,15 @@ fn surface(material: &Material, scene: &Scene) -> String {
         let map = texture(material.normal_texture);
         parts.push(format!("normal map{map}, scale {:.2}", material.normal_scale));
     }
+    if material.transmission > 0.0 {
+        let map = texture(material.transmission_texture);
+        let Interior { index, absorption } = material.interior;
+        let form = match absorption {
+            None => "as a pane".to_owned(),
+            Some([r, g, b]) => format!("as a body that absorbs {r:.3} {g:.3} {b:.3} per unit of length"),
+        };
+        parts.push(format!("transmits {:.2}{map}, index {index:.2}, {form}", material.transmission));
+    }
     if material.emissive != [0.0; 3] {
         let [r, g, b] = material.emissive;
         parts.push(format!("emits {r:.3} {g:.3} {b:.3}{}", texture(material.emissive_texture)));

@@ -1,9 +1,10 @@
 //! Specular light as a signal of its own: the sum of both signals is the light, and nothing that does not shine notices.
 
+use crate::common::scenes::{block, emitter, lambert, quad, scene};
 use crate::common::stage::Stage;
 use crate::common::statistics::{Estimate, Rgb, luminance, mean};
-use asvgf::scene::builtin;
-use asvgf::{FilterSettings, Gradient, Mode, Settings, View};
+use asvgf::scene::{Interior, Material, Scene, builtin};
+use asvgf::{Camera, FilterSettings, Gradient, Mode, Settings, View};
 
 const SIZE: [u32; 2] = [40, 30];
 
@@ -27,10 +28,42 @@ fn blocks(image: &[Rgb]) -> Vec<f64> {
 
 #[test]
 fn both_signals_together_are_the_light() {
-    let mut split = Stage::built_in("gloss", "static", SIZE, with_gloss(true, Gradient::Off));
-    let mut whole = Stage::built_in("gloss", "static", SIZE, with_gloss(false, Gradient::Off));
+    assert_sum(|settings| Stage::built_in("gloss", "static", SIZE, settings));
+}
+
+#[test]
+fn both_signals_of_glass_together_are_the_light() {
+    assert_sum(|settings| {
+        let mut stage = Stage::new(behind_glass(), SIZE, settings);
+        stage.camera = Some(Camera { eye: [0.0, 1.0, 3.0], target: [0.0, 0.2, 0.0], fov_y: 0.8, ..Default::default() });
+        stage
+    });
+}
+
+/// A shiny floor and a lamp, half of it behind frosted glass that a clear body touches.
+fn behind_glass() -> Scene {
+    let shiny = Material { specular: [0.04; 3], roughness: 0.3, ..lambert([0.6, 0.4, 0.2]) };
+    let glass = |roughness: f32, transmission: f32, absorption: Option<[f32; 3]>| Material {
+        specular: [0.04; 3],
+        roughness,
+        transmission,
+        interior: Interior { index: 1.5, absorption },
+        ..lambert([0.9; 3])
+    };
+    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let lamp = quad([-0.5, 1.5, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], 3);
+    let pane = quad([-0.6, 0.0, 0.5], [0.6, 0.0, 0.0], [0.0, 1.0, 0.0], 1);
+    let mut meshes = vec![floor, lamp, pane];
+    meshes.extend(block([0.1, 0.1, -0.2], [0.7, 0.7, 0.4], 2));
+    let materials = vec![shiny, glass(0.6, 0.7, None), glass(0.0, 1.0, Some([0.2, 0.5, 1.0])), emitter([6.0; 3])];
+    scene(materials, meshes)
+}
+
+fn assert_sum(stage: impl Fn(Settings) -> Stage) {
+    let mut split = stage(with_gloss(true, Gradient::Off));
+    let mut whole = stage(with_gloss(false, Gradient::Off));
     // Other random numbers than `split` has, for a mean that owes it nothing.
-    let mut apart = Stage::built_in("gloss", "static", SIZE, with_gloss(false, Gradient::Off));
+    let mut apart = stage(with_gloss(false, Gradient::Off));
     apart.index = 1000;
     let (mut of_split, mut of_apart) = (Vec::new(), Vec::new());
     for frame in 0..32 {

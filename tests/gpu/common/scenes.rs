@@ -15,6 +15,21 @@ pub fn quad(corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: usize) -> Mesh
     }
 }
 
+/// A closed box whose faces look outwards.
+pub fn block(low: [f32; 3], high: [f32; 3], material: usize) -> Vec<Mesh> {
+    let [x, y, z] = [0, 1, 2].map(|i| high[i] - low[i]);
+    let [a, b, c] = low;
+    let [p, q, r] = high;
+    vec![
+        quad([a, b, r], [x, 0.0, 0.0], [0.0, y, 0.0], material),
+        quad([p, b, c], [-x, 0.0, 0.0], [0.0, y, 0.0], material),
+        quad([a, b, c], [0.0, 0.0, z], [0.0, y, 0.0], material),
+        quad([p, b, r], [0.0, 0.0, -z], [0.0, y, 0.0], material),
+        quad([a, q, r], [x, 0.0, 0.0], [0.0, 0.0, -z], material),
+        quad([a, b, c], [x, 0.0, 0.0], [0.0, 0.0, z], material),
+    ]
+}
+
 /// A Lambertian surface.
 pub fn lambert(color: [f32; 3]) -> Material {
     Material { base_color: [color[0], color[1], color[2], 1.0], ..Default::default() }

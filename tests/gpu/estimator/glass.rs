@@ -1,8 +1,8 @@
 //! Glass against closed forms: furnaces, Snell, Fresnel, Beer–Lambert, and light that goes straight through it.
 
 use super::{ROUNDING, SAMPLINGS, SIZE, channel, from_above, images, tracer};
-use crate::common::scenes::{emitter, lambert, quad, scene, shine};
-use asvgf::scene::{Environment, Interior, LightKind, Material, Mesh, Node, Scene};
+use crate::common::scenes::{block, emitter, lambert, quad, scene, shine};
+use asvgf::scene::{Environment, Interior, LightKind, Material, Node, Scene};
 use asvgf::{Camera, Sampling};
 
 /// Clear glass with the reflectance of its index.
@@ -15,21 +15,6 @@ fn glass(index: f32, roughness: f32, absorption: Option<[f32; 3]>) -> Material {
         interior: Interior { index, absorption },
         ..lambert([1.0; 3])
     }
-}
-
-/// A closed box whose faces look outwards.
-fn block(low: [f32; 3], high: [f32; 3], material: usize) -> Vec<Mesh> {
-    let [x, y, z] = [0, 1, 2].map(|i| high[i] - low[i]);
-    let [a, b, c] = low;
-    let [p, q, r] = high;
-    vec![
-        quad([a, b, r], [x, 0.0, 0.0], [0.0, y, 0.0], material),
-        quad([p, b, c], [-x, 0.0, 0.0], [0.0, y, 0.0], material),
-        quad([a, b, c], [0.0, 0.0, z], [0.0, y, 0.0], material),
-        quad([p, b, r], [0.0, 0.0, -z], [0.0, y, 0.0], material),
-        quad([a, q, r], [x, 0.0, 0.0], [0.0, 0.0, -z], material),
-        quad([a, b, c], [x, 0.0, 0.0], [0.0, 0.0, z], material),
-    ]
 }
 
 /// A plate of glass of this thickness below y = 0.
