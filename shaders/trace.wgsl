@@ -28,8 +28,12 @@
 #import asvgf::throughput::add_scattered
 #endif
 #ifdef TRANSMISSION
-#import asvgf::glass_path::{MOST_BOUNDARIES, MOST_REFRACTIONS, Body, absorbed, body_before, enter, is_refracted, straight_through}
+#import asvgf::glass_path::{MOST_BOUNDARIES, MOST_REFRACTIONS, Body, absorbed, body_before, enter, is_refracted, origin_towards, straight_through}
 #import asvgf::material::is_glass
+#ifdef SEE_THROUGH
+#import asvgf::material::{is_clear, split}
+#import asvgf::packing::unpack_rgb
+#endif
 #import asvgf::throughput::{Ways, ways_behind, add_light_sample}
 #import asvgf::glass_shadow::{arriving_part, met_glass}
 #endif
@@ -45,6 +49,13 @@
 #endif
 
 @group(0) @binding(1) var visibility: texture_2d<u32>;
+#ifdef SEE_THROUGH
+// Albedo of what is seen through glass, 0 if nothing is; light that comes through the glass without another reflection.
+@group(0) @binding(12) var seen: texture_2d<u32>;
+#ifdef RESHADE
+@group(0) @binding(13) var seen_previous: texture_2d<u32>;
+#endif
+#endif
 #ifdef RESHADE
 @group(0) @binding(2) var visibility_previous: texture_2d<u32>;
 @group(0) @binding(3) var samples: texture_2d<u32>;
@@ -113,18 +124,20 @@ fn mis_weight(chosen: f32, other: f32) -> f32 {
 // Farthest distance of what is reflected: the sky's.
 const FARTHEST: f32 = 8e9;
 
-// Point at which a ray starts that leaves a surface in this direction.
-fn origin_towards(s: Surface, direction: vec3<f32>) -> vec3<f32> {
-#ifdef TRANSMISSION
-    return s.position + select(-s.margin, s.margin, dot(direction, s.geometric) > 0.0) * s.geometric;
-#else
-    return s.position + s.margin * s.geometric;
-#endif
-}
-
 #ifdef TRANSMISSION
 // Place of the camera that sees the first surface.
 var<private> eye: vec3<f32>;
+#endif
+#ifdef SEE_THROUGH
+// True if the light that comes to the pixel through clear glass without another reflection is its emission, see see_through.wgsl. Then
+// it is no part of the paths' light.
+var<private> sees_through: bool;
+
+// True if a ray leaves a surface as the ray of see_through.wgsl does.
+fn follows(s: Surface, next: vec3<f32>) -> bool {
+    let transmits = any(split(s, max(dot(s.view, s.normal), 0.0)).transmitted > vec3(0.0));
+    return is_clear(s) && transmits == (dot(next, s.geometric) < 0.0);
+}
 #endif
 
 // Traces a path. With GLOSS its light is split by the lobe of the first surface: each direction is
@@ -144,6 +157,9 @@ fn path(first: Surface, seed: u32) -> Light {
     // Boundaries of glass that the path has met. They are no bounces, because a lamp behind a window would need four of them.
     var boundaries = 0u;
     var bounces = 1u;
+#ifdef SEE_THROUGH
+    var is_seen_through = sees_through;
+#endif
     for (var bounce = 0u; bounce <= frame.bounces || is_glass(s); bounce += bounces) {
         let is_straight = boundaries >= MOST_REFRACTIONS && is_glass(s);
         // Behind the last bounce there may be glass before a light.
@@ -168,7 +184,8 @@ fn path(first: Surface, seed: u32) -> Light {
 #ifdef LIGHTS
 #ifndef SCATTERED_RAYS_ONLY
         // The sample starts where the ray starts, because even that small step is much of the way to a light nearby.
-        let lamp = sample_light(s.position + s.margin * s.geometric, light_choice, light_u);
+        let above = s.position + s.margin * s.geometric;
+        let lamp = sample_light(above, light_choice, light_u);
         let towards = scattering(s, lamp.direction);
         let reflected = towards.value * lamp.radiance;
 #ifdef TRANSMISSION
@@ -178,7 +195,12 @@ fn path(first: Surface, seed: u32) -> Light {
 #endif
         if is_lit && max(max(reflected.x, reflected.y), reflected.z) > 0.0 {
             rays += 1u;
-            if !occluded(Ray(origin_towards(s, lamp.direction), lamp.direction), lamp.reach) {
+#ifdef TRANSMISSION
+            let start = origin_towards(s, lamp.direction);
+#else
+            let start = above;
+#endif
+            if !occluded(Ray(start, lamp.direction), lamp.reach) {
 #ifdef LIGHT_SAMPLES_ONLY
                 let weight = 1.0;
 #else
@@ -186,8 +208,13 @@ fn path(first: Surface, seed: u32) -> Light {
 #endif
 #ifdef TRANSMISSION
                 let arriving = lamp.radiance * arriving_part(lamp.distance) / lamp.density;
+#ifdef SEE_THROUGH
+                let is_seen = is_seen_through && follows(s, lamp.direction);
+#else
+                let is_seen = false;
+#endif
                 add_light_sample(
-                    &light, s, throughput, ways, towards, arriving, weight, lamp.has_area, met_glass, is_first);
+                    &light, s, throughput, ways, towards, arriving, weight, lamp.has_area, is_seen, met_glass, is_first);
 #else
                 add_scattered(&light, throughput, towards, lamp.radiance * (weight / lamp.density), is_first);
 #endif
@@ -206,7 +233,14 @@ fn path(first: Surface, seed: u32) -> Light {
         if scattered.density <= 0.0 {
             break;
         }
+#ifdef TRANSMISSION
         let origin = origin_towards(s, next);
+#else
+        let origin = s.position + s.margin * s.geometric;
+#endif
+#ifdef SEE_THROUGH
+        is_seen_through = is_seen_through && follows(s, next);
+#endif
 #ifdef TRANSMISSION
         ways = ways_behind(s, throughput, ways, scattered, is_first);
         bounces = 1u;
@@ -228,6 +262,11 @@ fn path(first: Surface, seed: u32) -> Light {
 #endif
         if hit.triangle == NO_TRIANGLE {
 #ifdef ENVIRONMENT_LIGHT
+#ifdef SEE_THROUGH
+            if is_seen_through {
+                break;
+            }
+#endif
 #ifdef TRANSMISSION
             let from_sky = scaled(ways.direct, absorbed(body, FARTHEST));
 #else
@@ -260,7 +299,12 @@ fn path(first: Surface, seed: u32) -> Light {
         let left = absorbed(body_before(s, body), hit.distance);
         throughput = scaled(throughput, left);
         ways = Ways(scaled(ways.direct, left), scaled(ways.refracted, left));
-        let from_emitter = ways.direct;
+        var from_emitter = ways.direct;
+#ifdef SEE_THROUGH
+        if is_seen_through {
+            from_emitter = Throughput();
+        }
+#endif
 #else
         let from_emitter = throughput;
 #endif
@@ -392,8 +436,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if !inside(pixel) {
         return;
     }
-    let seen = textureLoad(visibility, pixel, 0).x;
-    if seen == NO_TRIANGLE {
+    let first = textureLoad(visibility, pixel, 0).x;
+    if first == NO_TRIANGLE {
 #ifdef LATER_PATHS
         textureStore(paths_out, pixel, vec4(0.0));
 #ifdef GLOSS
@@ -412,16 +456,29 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
         return;
     }
-    var s = visible_surface(seen, frame.camera, vec2<f32>(id.xy), false);
+    var s = visible_surface(first, frame.camera, vec2<f32>(id.xy), false);
 #ifdef TRANSMISSION
     eye = frame.camera.eye;
 #endif
 #ifdef ALPHA_BLEND
     var ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
 #endif
+#ifdef SEE_THROUGH
+    var behind = textureLoad(seen, pixel, 0);
+    sees_through = any(unpack_rgb(behind.xy) > vec3(0.0));
+#ifdef ALPHA_BLEND
+    sees_through = sees_through && !start_of_path(s, ray, 0u).blended;
+#endif
+#endif
 #ifndef LATER_PATHS
     var albedo = demodulation(s);
     var emission = s.emission;
+#ifdef SEE_THROUGH
+    if sees_through {
+        albedo = round_to_f16(unpack_rgb(behind.xy));
+        emission += unpack_rgb(behind.zw);
+    }
+#endif
 #ifdef ALPHA_BLEND
     // The light of blended surfaces comes from several of them, emission included.
     if start_of_path(s, ray, 0u).blended {
@@ -447,6 +504,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #ifdef TRANSMISSION
         eye = frame.previous.eye;
+#endif
+#ifdef SEE_THROUGH
+        behind = textureLoad(seen_previous, q, 0);
+        sees_through = any(unpack_rgb(behind.xy) > vec3(0.0));
+#ifdef ALPHA_BLEND
+        sees_through = sees_through && !start_of_path(s, ray, 0u).blended;
+#endif
 #endif
         seed_pixel = vec2<u32>(q);
         seed_frame = frame.index - 1u;
@@ -481,6 +545,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef RESHADE
     if is_repeated {
         modulation = demodulation(s);
+#ifdef SEE_THROUGH
+        if sees_through {
+            modulation = round_to_f16(unpack_rgb(behind.xy));
+        }
+#endif
 #ifdef ALPHA_BLEND
         if start_of_path(s, ray, 0u).blended {
             modulation = blended_albedo(ray);

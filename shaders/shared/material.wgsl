@@ -290,6 +290,11 @@ fn is_glass(s: Surface) -> bool {
     return any(s.transmitted > vec3(0.0));
 }
 
+// True if a surface shows what lies behind it.
+fn is_clear(s: Surface) -> bool {
+    return s.alpha <= NARROW && luminance(s.transmitted) > luminance(s.diffuse);
+}
+
 // Probability with which Lambert's lobe of a surface is sampled that transmits, too.
 fn lambert_share(s: Surface) -> f32 {
     let diffuse = luminance(s.diffuse);

@@ -98,7 +98,7 @@ fn matte(scattered: Scattering) -> Scattering {
     var result = scattered;
     result.value -= scattered.narrow;
 #ifdef GLOSS
-    result.specular = vec3(0.0);
+    result.specular -= min(scattered.specular, scattered.narrow);
 #endif
     return result;
 }
@@ -107,6 +107,10 @@ fn matte(scattered: Scattering) -> Scattering {
 fn narrow(scattered: Scattering) -> Scattering {
     var result = scattered;
     result.value = scattered.narrow;
+#ifdef GLOSS
+    // The specular lobe is narrow as a whole or in part; what glass transmits is narrow and no part of it.
+    result.specular = min(scattered.specular, scattered.narrow);
+#endif
     return result;
 }
 
@@ -141,18 +145,19 @@ fn ways_behind(s: Surface, throughput: Throughput, before: Ways, scattered: Scat
 #endif
 }
 
-// Adds a light sample with its weight against scattered rays, and the part of it that glass lets through.
+// Adds a light sample with its weight against scattered rays, and the part of it that glass lets through. `is_seen` tells that the narrow
+// lobes show the light to the camera, as emission.
 fn add_light_sample(
     light: ptr<function, Light>, s: Surface, throughput: Throughput, ways: Ways, towards: Scattering,
-    arriving: vec3<f32>, weight: f32, has_area: bool, met_glass: bool, is_first: bool
+    arriving: vec3<f32>, weight: f32, has_area: bool, is_seen: bool, met_glass: bool, is_first: bool
 ) {
     let part = select(weight, 1.0, met_glass);
     add_scattered(light, throughput, matte(towards), arriving * part, is_first);
     let glass = is_glass(s);
 #ifdef LIGHT_SAMPLES_ONLY
-    let is_found_otherwise = has_area && glass;
+    let is_found_otherwise = has_area && (glass || is_seen);
 #else
-    let is_found_otherwise = has_area && met_glass;
+    let is_found_otherwise = has_area && (met_glass || is_seen);
 #endif
     if !is_found_otherwise {
         if glass {

@@ -85,11 +85,21 @@ impl HostView {
 }
 
 impl Slot {
+    /// The slot of the surfaces that rays meet first, in a frame that sees others through glass.
+    fn first(self, features: Features) -> Self {
+        match self {
+            Self::Now(image) if features.has(Feature::SeeThrough) => Self::Now(image.first()),
+            Self::Before(image) if features.has(Feature::SeeThrough) => Self::Before(image.first()),
+            _ => self,
+        }
+    }
+
     /// The slot of a step of the specular signal, where the diffuse signal's step has this one.
     pub(super) fn specular(self, features: Features) -> Self {
         match self {
             // Both signals find the last frame's surfaces there, and repeat the same paths.
-            Self::Before(Image::Guide) => self,
+            Self::Before(Image::Guide) => self.first(features),
+            Self::Now(Image::Object) | Self::Before(Image::Object) => self.first(features),
             Self::Now(Image::Samples) | Self::Before(Image::Samples) if features.has(Feature::Reshade) => self,
             Self::Now(image) => Self::Now(image.specular()),
             Self::Before(image) => Self::Before(image.specular()),
@@ -140,6 +150,8 @@ pub(crate) struct Binding {
     storage: bool,
     /// The signal that the image is of, whichever signal's step it is: true for the specular one, false for the diffuse one.
     of: Option<bool>,
+    /// True if the image is of the surfaces that rays meet first, in a frame that sees others through glass.
+    first: bool,
 }
 
 /// The place at which a step finds the image of a binding.
@@ -222,7 +234,7 @@ pub(super) const fn target(name: &'static str) -> Binding {
 impl Binding {
     const fn new(name: &'static str, source: Source, written: bool) -> Self {
         let none = Features::of(&[]);
-        Self { name, source, written, host: None, all: none, any: none, none, storage: false, of: None }
+        Self { name, source, written, host: None, all: none, any: none, none, storage: false, of: None, first: false }
     }
 
     /// Binds the image only if the step has this feature.
@@ -260,6 +272,11 @@ impl Binding {
         Self { of: Some(false), ..self }
     }
 
+    /// Binds the image of the surfaces that rays meet first, in a frame that sees others through glass.
+    pub(super) const fn of_first(self) -> Self {
+        Self { first: true, ..self }
+    }
+
     /// True if a step with these features has this binding.
     pub(super) fn is_bound(&self, features: Features) -> bool {
         features.has_all(self.all)
@@ -293,6 +310,7 @@ impl Binding {
         };
         let specular = self.of.unwrap_or(plan.has(Feature::SpecularSignal));
         let slot = if specular { slot.specular(plan) } else { slot };
+        let slot = if self.first { slot.first(plan) } else { slot };
         Bound { name: self.name, slot, written: self.written }
     }
 }

@@ -37,6 +37,8 @@ features! {
     Specular,
     /// Light goes through surfaces, refracted or straight.
     Transmission,
+    /// The filter follows the surfaces behind clear glass.
+    SeeThrough,
     /// Test of the opacity and of the facing during traversal.
     AlphaMask,
     /// Rays meet a surface with the probability of its opacity.

@@ -14,6 +14,14 @@ pub enum Image {
     Motion,
     /// Instance number.
     Object,
+    /// The guide of the surfaces that rays meet first, where [`Image::Guide`] is of those that are seen through glass.
+    FirstGuide,
+    /// The motion of these surfaces.
+    FirstMotion,
+    /// The objects of these surfaces.
+    FirstObject,
+    /// The albedo of what is seen through glass, and light that comes from there without a reflection.
+    Seen,
     /// This frame's demodulated radiance.
     Radiance,
     /// The albedo that radiance was divided by.
@@ -160,6 +168,16 @@ impl Image {
         }
     }
 
+    /// The image of the surfaces that rays meet first, which shine with their reflections.
+    pub(super) fn first(self) -> Self {
+        match self {
+            Self::Guide => Self::FirstGuide,
+            Self::Motion => Self::FirstMotion,
+            Self::Object => Self::FirstObject,
+            other => other,
+        }
+    }
+
     /// Format of the texture.
     pub fn format(self) -> TextureFormat {
         self.row().1
@@ -178,6 +196,10 @@ impl Image {
             Self::Guide => ("guide", Rg32Uint, Pixels),
             Self::Motion => ("motion", Rg32Uint, Pixels),
             Self::Object => ("object", R32Uint, Pixels),
+            Self::FirstGuide => ("first guide", Rg32Uint, Pixels),
+            Self::FirstMotion => ("first motion", Rg32Uint, Pixels),
+            Self::FirstObject => ("first object", R32Uint, Pixels),
+            Self::Seen => ("seen", Rgba32Uint, Pixels),
             Self::Radiance => ("radiance", Rg32Uint, Pixels),
             Self::Albedo => ("albedo", Rgba16Float, Pixels),
             Self::Emission => ("emission", Rg32Uint, Pixels),

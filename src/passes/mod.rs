@@ -35,6 +35,8 @@ pub(crate) mod outlier_limit;
 pub(crate) mod reflection;
 pub(crate) mod reshade;
 pub(crate) mod resolve;
+#[cfg(feature = "path-tracer")]
+pub(crate) mod see_through;
 pub(crate) mod steady;
 pub(crate) mod temporal;
 #[cfg(feature = "path-tracer")]

@@ -12,6 +12,7 @@ pub(crate) static PASS: Pass = Pass {
         &[
             knows(Specular),
             knows(Transmission),
+            knows(SeeThrough),
             knows(Lights),
             knows(Emitters),
             knows(PunctualLights),
@@ -29,6 +30,8 @@ pub(crate) static PASS: Pass = Pass {
         now("visibility", Image::Visibility),
         before("visibility_previous", Image::Visibility).with(Reshade),
         now("samples", Image::Samples).with(Reshade),
+        now("seen", Image::Seen).with(SeeThrough),
+        before("seen_previous", Image::Seen).with(SeeThrough).with(Reshade),
         other_turn("paths_before", Image::Paths).with(EarlierPaths),
         turn_out("paths_out", Image::Paths).with(LaterPaths),
         other_turn("specular_paths_before", Image::SpecularPaths).with(EarlierPaths).with(Gloss),

@@ -20,9 +20,9 @@ pub(crate) static PASS: Pass = Pass {
     ]],
     bindings: &[&[
         out("visibility_out", Image::Visibility),
-        out("guide_out", Image::Guide),
-        out("motion_out", Image::Motion),
-        out("object_out", Image::Object).with(Objects),
+        out("guide_out", Image::Guide).of_first(),
+        out("motion_out", Image::Motion).of_first(),
+        out("object_out", Image::Object).of_first().with(Objects),
     ]],
     traces: true,
 };

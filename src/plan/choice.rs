@@ -62,6 +62,11 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
             ["light goes through a material", "no light goes through a material: nothing is refracted"],
         ),
         (
+            SeeThrough,
+            contents.clear_glass,
+            ["a glass may be clear: the filter follows what lies behind it", "no glass is clear"],
+        ),
+        (
             AlphaMask,
             contents.alpha_mask,
             ["a material has holes", "no material has holes: any hit will do for a shadow"],

@@ -57,6 +57,9 @@ impl Plan {
         let mut plan = Self::of(choice::traced(contents, settings, changes), target);
         plan.specular = choice::traced_gloss(contents, settings, changes);
         plan.run(&visibility::PASS);
+        if plan.has(Feature::SeeThrough) {
+            plan.run(&see_through::PASS);
+        }
         if plan.has(Feature::Gradient) && !plan.has(Feature::Statistics) {
             plan.run(&gradient_sample::PASS);
         }

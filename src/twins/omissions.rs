@@ -18,6 +18,7 @@ const ALL: SceneContents = SceneContents {
     vertex_colors: true,
     specular: true,
     transmission: true,
+    clear_glass: true,
     matte: false,
     alpha_mask: true,
     alpha_blend: true,
@@ -133,9 +134,11 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "entered",
         "eye",
         "facets",
+        "follows",
         "glass_scattering",
         "goes_through",
         "grazing_part",
+        "is_clear",
         "is_glass",
         "is_refracted",
         "lambert_share",
@@ -150,6 +153,9 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "other_side",
         "refracting_facet",
         "sample_glass",
+        "seen",
+        "seen_previous",
+        "sees_through",
         "split",
         "straight_part",
         "straight_through",
@@ -175,17 +181,18 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     ]
     .concat();
     shine.sort_unstable();
-    let cases: [(SceneContents, &[&str]); 12] = [
+    let cases: [(SceneContents, &[&str]); 13] = [
         (SceneContents { instanced: false, ..ALL }, moving),
         (SceneContents { textures: false, normal_maps: false, ..ALL }, &images),
         (SceneContents { shading_normals: false, normal_maps: false, ..ALL }, &normals),
         (SceneContents { normal_maps: false, ..ALL }, &maps),
         (SceneContents { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
+        (SceneContents { specular: false, transmission: false, clear_glass: false, ..ALL }, &shine),
+        (SceneContents { transmission: false, clear_glass: false, ..ALL }, &glass),
         (
-            SceneContents { specular: false, transmission: false, ..ALL },
-            &shine,
+            SceneContents { clear_glass: false, ..ALL },
+            &["follows", "is_clear", "seen", "seen_previous", "sees_through"],
         ),
-        (SceneContents { transmission: false, ..ALL }, &glass),
         (SceneContents { alpha_mask: false, alpha_blend: false, ..ALL }, &opacity),
         (SceneContents { alpha_blend: false, ..ALL }, &blending),
         (SceneContents { emitters: false, ..ALL }, &["emitter_density"]),

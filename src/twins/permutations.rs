@@ -56,6 +56,7 @@ fn contents() -> Vec<SceneContents> {
                 folded_images: bit(12),
                 normal_maps: bit(13),
                 transmission: bit(14),
+                clear_glass: bit(14) && bit(5),
                 ..Default::default()
             }
         })

@@ -96,9 +96,7 @@ fn transmission_and_volume_are_glass() {
 
 #[test]
 fn glass_that_is_wrong_costs_itself() {
-    let body = |volume: Value| {
-        json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": volume})
-    };
+    let body = |volume: Value| json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_volume": volume});
     let of = |volume: Value, element: &str, reason: &str| {
         scene(body(volume), &[(element, reason)]).materials[0].interior.absorption
     };

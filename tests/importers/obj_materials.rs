@@ -84,7 +84,10 @@ fn illumination_models() {
     }
     for glass in ["4", "6", "7", "9"] {
         let loaded = made(glass);
-        assert_warnings(&loaded, &[("material \"m\"", &format!("illum {glass} (glass) is drawn as a pane that does not refract"))]);
+        assert_warnings(
+            &loaded,
+            &[("material \"m\"", &format!("illum {glass} (glass) is drawn as a pane that does not refract"))],
+        );
         let material = &loaded.scene.materials[0];
         assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Opaque), "no mirror");
         assert_eq!((material.transmission, material.interior.absorption), (1.0, None), "a pane");

@@ -1,7 +1,7 @@
 //! Lists that `render` prints of scenes.
 
 use crate::render::options::{Options, Source};
-use asvgf::scene::{Alpha, Loaded, Material, Mesh, Scene, Texture, builtin};
+use asvgf::scene::{Alpha, Interior, Loaded, Material, Mesh, Scene, Texture, builtin};
 use std::fmt::Write as _;
 
 /// Lists the built-in scenes, and the contents of the given scene.

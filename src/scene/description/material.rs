@@ -93,6 +93,11 @@ impl Material {
         !self.unlit && self.transmission > 0.0
     }
 
+    /// True if the surface may be so smooth that things are seen through it (`NARROW` of shaders/shared/material.wgsl).
+    pub(crate) fn is_clear(&self) -> bool {
+        self.transmits() && (self.roughness <= 0.2 || self.metallic_roughness_texture.is_some())
+    }
+
     /// All textures in use, each with the name of its field.
     pub(crate) fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
         [

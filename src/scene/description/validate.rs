@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use crate::scene::description::{
-    Alpha, Animation, Channel, Environment, Image, Interior, Interpolation, Light, LightKind, Material, Mesh, Node, Scene,
-    SceneError, Target, Texture, Transform,
+    Alpha, Animation, Channel, Environment, Image, Interior, Interpolation, Light, LightKind, Material, Mesh, Node,
+    Scene, SceneError, Target, Texture, Transform,
 };
 
 /// The first broken rule: element and reason.

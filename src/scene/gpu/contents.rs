@@ -23,6 +23,7 @@ pub(crate) fn contents(scene: &Scene, layout: Layout) -> SceneContents {
         // Glass mirrors at grazing incidence, whatever its reflectance is.
         specular: used().any(|m| !m.unlit && (m.specular != [0.0; 3] || m.metallic > 0.0) || m.transmits()),
         transmission: used().any(Material::transmits),
+        clear_glass: used().any(Material::is_clear),
         alpha_blend: used().any(|m| m.alpha == Alpha::Blend),
         alpha_mask: used().any(|m| m.alpha != Alpha::Opaque || m.culled),
         emitters: used().any(Material::is_emitter),

@@ -12,5 +12,6 @@ mod motion;
 mod pauses;
 mod recording;
 mod refusals;
+mod see_through;
 mod still;
 mod views;
