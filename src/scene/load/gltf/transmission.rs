@@ -49,12 +49,12 @@ fn absorption(volume: &Volume, element: &str, report: &mut Report) -> Option<[f3
     if thickness == 0.0 {
         return None;
     }
-    if !(thickness > 0.0) {
+    if thickness.is_nan() || thickness < 0.0 {
         report.warn(format!("{user}.thicknessFactor"), format!("{thickness} is not at least 0; 0 is used"));
         return None;
     }
     let distance = volume.attenuation_distance.0;
-    if !(distance > 0.0) {
+    if distance.is_nan() || distance <= 0.0 {
         let reason = format!("{distance} is not above 0; the volume absorbs nothing");
         report.warn(format!("{user}.attenuationDistance"), reason);
         return Some([0.0; 3]);
