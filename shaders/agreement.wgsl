@@ -7,13 +7,14 @@
 #import asvgf::packing::{unpack_normal, unpack_rgb}
 #import asvgf::reproject::{SAME_NORMAL, in_mirror}
 #import asvgf::sample::sample_at
+#import asvgf::evidence::{Evidence, pack_evidence}
 #import asvgf::strata::{pixel_at, place_from_center}
 #ifdef MISSING_SAMPLES
 #import asvgf::packing::is_sample
 #endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
-@group(0) @binding(9) var agreement_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(9) var agreement_out: texture_storage_2d<rg32uint, write>;
 
 // Variance that a comparison allows beside the samples' own: 1 % of the squares, and a little for darkness.
 const ALLOWED: f32 = 0.01;
@@ -45,8 +46,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             continue;
         }
         let moved = motion_of(pixel, depth);
-        let shift = reflection_at(pixel).xy;
-        if distance(moved.xy, shift) < APART {
+        let reflection = reflection_at(pixel);
+        if !reflection.exists || distance(moved.xy, reflection.motion) < APART {
             continue;
         }
         let arrived = sample_at(pixel, true);
@@ -59,7 +60,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var surface = TapSum();
         add_tap(&surface, origin, vec2<i32>(floor(vec2<f32>(pixel) + moved.xy + 0.5)), 1.0);
         var reflected = TapSum();
-        add_tap(&reflected, in_mirror(origin), vec2<i32>(floor(vec2<f32>(pixel) + shift + 0.5)), 1.0);
+        add_tap(&reflected, in_mirror(origin), vec2<i32>(floor(vec2<f32>(pixel) + reflection.motion + 0.5)), 1.0);
         let s = mean_of(surface);
         let v = mean_of(reflected);
         if s.weight <= 0.0 || v.weight <= 0.0 {
@@ -77,5 +78,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let difference = (a - b) / variance;
         sums += vec2(difference * (e - 0.5 * (a + b)), difference * (a - b));
     }
-    textureStore(agreement_out, stratum, vec4(bitcast<vec2<u32>>(sums), reference, select(0u, 1u, exists)));
+    textureStore(agreement_out, stratum, vec4(pack_evidence(Evidence(sums, reference, exists)), 0u, 0u));
 }

@@ -10,8 +10,7 @@
 #import asvgf::color::luminance
 #import asvgf::packing::{unpack_normal, unpack_normal_511, pack_rgb, pack_tap, tap_color, tap_variance}
 #ifdef SPECULAR_SIGNAL
-#import asvgf::gloss::{guide_roughness, lobe_width}
-#import asvgf::packing::unpack_motion
+#import asvgf::gloss::{guide_roughness, lobe_width, unpack_reflection}
 #endif
 #import asvgf::edge_stop::{falloff, Plane, facing, tangent_plane, plane_distance, foreshortening}
 
@@ -118,7 +117,7 @@ const LEAST_FOOTPRINT: f32 = 2.0;
 
 // Exponent of the footprint's stop at a distance of one stride.
 fn footprint(pixel: vec2<i32>, roughness: f32, depth: f32) -> f32 {
-    let hit_distance = unpack_motion(textureLoad(reflection, pixel, 0).xy).z;
+    let hit_distance = unpack_reflection(textureLoad(reflection, pixel, 0).xy).hit_distance;
     let width = FOOTPRINT * lobe_width(roughness, hit_distance, depth);
     let deviation = max(width, LEAST_FOOTPRINT) / f32(stride);
     return 0.5 / (deviation * deviation);

@@ -11,7 +11,19 @@
 // In z the distance of what is reflected.
 @group(0) @binding(2) var specular_radiance: texture_2d<u32>;
 @group(0) @binding(3) var specular_albedo_out: texture_storage_2d<rgba16float, write>;
-@group(0) @binding(4) var gloss_out: texture_storage_2d<r32uint, write>;
+#ifdef OBJECTS
+@group(0) @binding(5) var object: texture_2d<u32>;
+#endif
+// The gloss, and the number of the object.
+@group(0) @binding(4) var gloss_out: texture_storage_2d<rg32uint, write>;
+
+fn object_at(pixel: vec2<i32>) -> u32 {
+#ifdef OBJECTS
+    return textureLoad(object, pixel, 0).x;
+#else
+    return 0u;
+#endif
+}
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -33,5 +45,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         gloss = select(0u, pack_gloss(sqrt(s.alpha), hit_distance, 1.0), any(reflectance > vec3(0.0)));
     }
     textureStore(specular_albedo_out, pixel, vec4(reflectance, 0.0));
-    textureStore(gloss_out, pixel, vec4(gloss));
+    textureStore(gloss_out, pixel, vec4(gloss, object_at(pixel), 0u, 0u));
 }

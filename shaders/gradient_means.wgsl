@@ -25,10 +25,10 @@
 #import asvgf::packing::is_sample
 #endif
 #ifdef OUTLIERS
-#import asvgf::outliers::{bound, ratio_to, unpack_limit}
+#import asvgf::outliers::{bound, ratio_of, ratio_to, unpack_limit}
 #endif
 #ifdef SPECULAR_SIGNAL
-#import asvgf::gloss::{guide_roughness, lobe_width}
+#import asvgf::gloss::lobe_width
 #import asvgf::history_taps::reflection_at
 #import asvgf::reproject::in_mirror
 #import asvgf::specular_history::{combined, evidence_at, weight_of}
@@ -65,7 +65,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = Means();
     var count = 0.0;
 #ifdef OUTLIERS
-    let believed = unpack_limit(textureLoad(limit, stratum, 0));
+    let believed = unpack_limit(textureLoad(limit, stratum, 0).xy);
+    let most = ratio_of(believed.ratio_class);
 #endif
     let first = select(0u, 9u, frame.continued == 0u);
     for (var k = first; k < 9u; k++) {
@@ -79,6 +80,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if depth <= 0.0 {
             continue;
         }
+#ifdef SPECULAR_SIGNAL
+        let reflection = reflection_at(pixel);
+        if !reflection.exists {
+            continue;
+        }
+#endif
         let point = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
         let n = unpack_normal(g.x);
         if record.x != 0u && (abs(dot(normal, point - place)) > reach || dot(normal, n) < SAME_NORMAL) {
@@ -94,10 +101,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let origin = origin_at(pixel, moved, n);
         var history = mean_of(bilinear_taps(origin, vec2<f32>(pixel) + moved.xy));
 #ifdef SPECULAR_SIGNAL
-        let reflection = reflection_at(pixel);
-        let reflected = mean_of(bilinear_taps(in_mirror(origin), vec2<f32>(pixel) + reflection.xy));
-        let width = lobe_width(guide_roughness(g), reflection.z, depth);
-        history = combined(history, reflected, weight_of(evidence_at(stratum).sums), reflection.xy, moved.xy, width);
+        let reflected = mean_of(bilinear_taps(in_mirror(origin), vec2<f32>(pixel) + reflection.motion));
+        let width = lobe_width(reflection.roughness, reflection.hit_distance, depth);
+        history = combined(history, reflected, weight_of(evidence_at(stratum).sums), reflection.motion, moved.xy, width);
 #endif
         if history.weight <= 0.0 {
             continue;
@@ -107,7 +113,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let l_before = luminance(history.color);
 #ifdef OUTLIERS
         // A sample that temporal.wgsl does not believe is no sign of change either.
-        if ratio_to(bound(max(l_before, max(believed.expected, believed.level)), history.length), l) > believed.ratio {
+        if ratio_to(bound(max(l_before, max(believed.expected, believed.level)), history.length), l) > most {
             continue;
         }
 #endif

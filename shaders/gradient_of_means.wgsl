@@ -1,6 +1,6 @@
 // History ratio ρ and λ of each stratum from the means of this frame's samples, s, and of the history, m, on three levels of a
 // pyramid. The coarsest comes first: it knows a change of the whole room with little noise. Each finer one adds what differs from
-// that.
+// that. The coarsest is made here and not stored, because nothing else reads it.
 //
 //   d = s − ρ·m                                                            (luminances)
 //   V′ = max(ρ²·V, Σ(s_i − ρ·m_i)²/N²)                                     as the histories, and as the samples know it
@@ -16,16 +16,13 @@
 
 #import asvgf::frame::frame
 #import asvgf::color::luminance
-#import asvgf::means::{Means, unpack_means}
+#import asvgf::means::{Means, pack_before, pack_now, unpack_means}
+#import asvgf::means_taps::{coarser_means, means_of}
+#import asvgf::strata_taps::record_of
 #ifdef HISTORY_RATIO
 #import asvgf::history_ratio::{FROM_DARK, PRIOR, beyond_limit, limited, limited_color}
 #endif
 
-@group(0) @binding(1) var samples: texture_2d<u32>;
-@group(0) @binding(2) var now_coarse: texture_2d<u32>;
-@group(0) @binding(3) var before_coarse: texture_2d<u32>;
-@group(0) @binding(4) var now_middle: texture_2d<u32>;
-@group(0) @binding(5) var before_middle: texture_2d<u32>;
 @group(0) @binding(6) var now_fine: texture_2d<u32>;
 @group(0) @binding(7) var before_fine: texture_2d<u32>;
 @group(0) @binding(8) var gradient_out: texture_storage_2d<rgba32uint, write>;
@@ -79,9 +76,12 @@ fn refine(found: Found, means: Means) -> Found {
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let stratum = vec2<i32>(id.xy);
     var found = Found(vec4(1.0), 0.0);
-    if textureLoad(samples, stratum, 0).x != 0u {
-        found = refine(found, unpack_means(textureLoad(now_coarse, stratum, 0), textureLoad(before_coarse, stratum, 0)));
-        found = refine(found, unpack_means(textureLoad(now_middle, stratum, 0), textureLoad(before_middle, stratum, 0)));
+    let record = record_of(stratum);
+    if record.x != 0u {
+        let coarsest = coarser_means(stratum, record);
+        // Rounded as the others are.
+        found = refine(found, unpack_means(pack_now(coarsest), pack_before(coarsest)));
+        found = refine(found, means_of(stratum));
         found = refine(found, unpack_means(textureLoad(now_fine, stratum, 0), textureLoad(before_fine, stratum, 0)));
     }
     var lambda = found.lambda;

@@ -17,7 +17,19 @@
 #ifdef ALBEDO
 @group(0) @binding(5) var albedo: texture_2d<f32>;
 #endif
-@group(0) @binding(6) var gloss_out: texture_storage_2d<r32uint, write>;
+#ifdef OBJECTS
+@group(0) @binding(7) var object: texture_2d<u32>;
+#endif
+// The gloss, and the number of the object.
+@group(0) @binding(6) var gloss_out: texture_storage_2d<rg32uint, write>;
+
+fn object_at(pixel: vec2<i32>) -> u32 {
+#ifdef OBJECTS
+    return textureLoad(object, pixel, 0).x;
+#else
+    return 0u;
+#endif
+}
 
 // Roughness of a surface of which none is known: that of a plastic.
 const UNKNOWN_ROUGHNESS: f32 = 0.35;
@@ -64,5 +76,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     part = 1.0;
 #endif
     let seen = textureLoad(guide, pixel, 0).y != 0u;
-    textureStore(gloss_out, pixel, vec4(select(0u, pack_gloss(r, distance, part), shines && seen)));
+    let gloss = select(0u, pack_gloss(r, distance, part), shines && seen);
+    textureStore(gloss_out, pixel, vec4(gloss, object_at(pixel), 0u, 0u));
 }

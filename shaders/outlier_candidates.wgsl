@@ -15,7 +15,7 @@
 #import asvgf::color::luminance
 #import asvgf::history::{history_color, history_length}
 #import asvgf::history_taps::history_at
-#import asvgf::outliers::{Candidate, LEAST_LEVEL, LEAST_RATIO, MOST_RATIO, bound, pack_candidate, ratio_to, unpack_candidate, unpack_limit}
+#import asvgf::outliers::{Candidate, LEAST_LEVEL, LEAST_RATIO, MOST_RATIO, bound, pack_candidate, ratio_to, unpack_memory}
 #import asvgf::packing::unpack_rgb
 #import asvgf::sample::sample_at
 #import asvgf::strata::{is_at, pixel_at, place_from_center, stratum_of}
@@ -28,10 +28,10 @@
 #ifdef IN_PLACE
 #import asvgf::strata::is_sample_pixel
 #endif
-#ifndef STILL
 #ifdef SPECULAR_SIGNAL
 #import asvgf::history_taps::reflection_at
 #else
+#ifndef STILL
 #import asvgf::history_taps::motion_of
 #endif
 #endif
@@ -40,8 +40,7 @@
 #ifdef IN_PLACE
 @group(0) @binding(6) var samples: texture_2d<u32>;
 #endif
-@group(0) @binding(9) var candidates_previous: texture_2d<u32>;
-@group(0) @binding(10) var limit_previous: texture_2d<u32>;
+@group(0) @binding(9) var memory_previous: texture_2d<u32>;
 @group(0) @binding(11) var candidates_out: texture_storage_2d<rgba32uint, write>;
 
 // Part of a candidate's luminance m that is left a frame later.
@@ -62,7 +61,7 @@ fn origin(pixel: vec2<i32>, depth: f32) -> vec2<i32> {
     return pixel;
 #else
 #ifdef SPECULAR_SIGNAL
-    let moved = reflection_at(pixel).xy;
+    let moved = reflection_at(pixel).motion;
 #else
     let moved = motion_of(pixel, depth).xy;
 #endif
@@ -98,13 +97,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if g.y == 0u {
             continue;
         }
+#ifdef SPECULAR_SIGNAL
+        if !reflection_at(pixel).exists {
+            continue;
+        }
+#endif
         let arrived = sample_at(pixel, true);
         let before = origin(pixel, bitcast<f32>(g.y));
         let known = frame.continued != 0u && inside(before);
         let tap = clamp(before, vec2(0), vec2<i32>(frame.size) - 1);
         // The number of frames running in which it was a candidate.
         let there = stratum_of(vec2<u32>(tap));
-        let last = unpack_candidate(textureLoad(candidates_previous, there, 0));
+        let last = unpack_memory(textureLoad(memory_previous, there, 0));
         let was_one = known && is_at(last.place, vec2<u32>(tap));
         // A missing sample, or a repeated path, teaches nothing of a candidate, and is no reason to forget one.
         var is_new = true;
@@ -139,8 +143,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef STEADY
         level = max(level, luminance(output_at(tap)));
 #endif
-        let around = unpack_limit(textureLoad(limit_previous, there, 0)).expected;
-        let least = max(level, LEAST_LEVEL * around);
+        let least = max(level, LEAST_LEVEL * last.expected);
         let ratio = ratio_to(bound(least, n), l);
         let candidate = ratio > LEAST_RATIO || (sightings > 0u && sightings < MOST_SIGHTINGS && l > 0.0);
         now.expected += level;
@@ -175,12 +178,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     now.length = length;
     now.implied = implied;
     if last_stratum.x >= 0 {
-        let last = unpack_candidate(textureLoad(candidates_previous, last_stratum, 0));
+        let last = unpack_memory(textureLoad(memory_previous, last_stratum, 0));
         now.brightest = max(now.brightest, KEPT * last.brightest);
         now.running = last.running;
         now.implied = last.implied + (implied - last.implied) / min(length + 1.0, SLOW);
         // Light far darker than what the candidates imply does not count as light.
-        let dark = DARK * unpack_limit(textureLoad(limit_previous, last_stratum, 0)).implied;
+        let dark = DARK * last.around;
         now.lit = select(0u, now.lit, now.ordinary > dark * f32(now.seen));
     }
     let kept = select(0u, now.running, carried.x != 0u);

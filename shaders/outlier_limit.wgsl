@@ -9,12 +9,13 @@
 // believed if they imply more than 1.2 times the light that the others show and are few beside the lit pixels.
 
 #import asvgf::frame::frame
-#import asvgf::outliers::{Limit, WINDOW, pack_limit, unpack_candidate, window_start}
+#import asvgf::outliers::{ALL, Limit, Memory, WINDOW, pack_limit, pack_memory, unpack_candidate, window_start}
 
 @group(0) @binding(1) var candidates: texture_2d<u32>;
 @group(0) @binding(2) var candidate_counts: texture_2d<u32>;
 @group(0) @binding(3) var sums: texture_2d<u32>;
-@group(0) @binding(4) var limit_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(4) var limit_out: texture_storage_2d<rg32uint, write>;
+@group(0) @binding(5) var memory_out: texture_storage_2d<rgba32uint, write>;
 
 // Most light that candidates may imply, in parts of the light that the others show. With 4 instead, one outlier in 100 samples has a
 // relMSE of 47 (docs/filter.md).
@@ -34,9 +35,6 @@ const LEAST_AGREEING: f32 = 3.0;
 // Sightings running after which a sample is believed, and the same in doubt.
 const SIGHTINGS: u32 = 3u;
 const SIGHTINGS_IN_DOUBT: u32 = 6u;
-
-// R where everything is believed.
-const ALL: f32 = 3e38;
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -63,15 +61,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var above = 0.0;
     let sightings = select(SIGHTINGS, SIGHTINGS_IN_DOUBT, doubtful);
     // All is believed where no sample was seen, because nothing speaks against one.
-    var ratio = select(1.0, ALL, strata == 0.0);
+    var ratio_class = select(0u, ALL, strata == 0.0);
     // From the brightest class down.
     for (var k = 14; k >= 0; k--) {
         let word = count[k >> 2u];
         above += f32((word >> (8u * u32(k & 3))) & 0xffu);
-        // The end of the next class is ½·4^(k + 2), from its bits. From the last class but one on, all is believed.
-        let reach = select(bitcast<f32>(u32(127 + 3 + 2 * k) << 23u), ALL, k >= 13);
-        ratio = max(ratio, select(0.0, reach, above >= asked && !doubtful));
+        // The end of the next class is ½·4^(k + 2). From the last class but one on, all is believed.
+        ratio_class = max(ratio_class, select(0u, min(u32(k + 1), ALL), above >= asked && !doubtful));
     }
-    let limit = Limit(ratio, sum.y / max(seen, 1.0), sum.x / max(seen, 1.0), sum.z / max(seen, 1.0), sightings);
-    textureStore(limit_out, stratum, pack_limit(limit));
+    let around = sum / max(seen, 1.0);
+    let limit = Limit(ratio_class, around.y, around.z, sightings, here.place, here.sightings, here.running);
+    textureStore(limit_out, stratum, vec4(pack_limit(limit), 0u, 0u));
+    let memory = Memory(here.brightest, here.implied, around.x, around.z, here.place, here.sightings, here.running);
+    textureStore(memory_out, stratum, pack_memory(memory));
 }

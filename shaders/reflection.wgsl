@@ -22,13 +22,13 @@
 // where Y is the place of the surface at q.
 
 #import asvgf::frame::{frame, inside, is_orthographic, project, ray_direction, sample_point, scale_at, seen_position}
-#import asvgf::gloss::{specular_guide, unpack_gloss}
+#import asvgf::gloss::{pack_reflection, unpack_gloss}
 #ifdef INSTANCED
 #ifndef STILL
 #import asvgf::packing::unpack_displacement
 #endif
 #endif
-#import asvgf::packing::{pack_motion, unpack_normal}
+#import asvgf::packing::unpack_normal
 #ifndef STILL
 #ifdef HOST_MOTION
 #import asvgf::host_motion::host_motion
@@ -41,14 +41,14 @@
 
 #ifdef STORAGE_READS
 @group(0) @binding(1) var guide: texture_storage_2d<rg32uint, read>;
-@group(0) @binding(2) var gloss: texture_storage_2d<r32uint, read>;
+@group(0) @binding(2) var gloss: texture_storage_2d<rg32uint, read>;
 
 fn guide_at(pixel: vec2<i32>) -> vec2<u32> {
     return textureLoad(guide, pixel).xy;
 }
 
-fn gloss_at(pixel: vec2<i32>) -> u32 {
-    return textureLoad(gloss, pixel).x;
+fn gloss_at(pixel: vec2<i32>) -> vec2<u32> {
+    return textureLoad(gloss, pixel).xy;
 }
 #else
 @group(0) @binding(1) var guide: texture_2d<u32>;
@@ -58,8 +58,8 @@ fn guide_at(pixel: vec2<i32>) -> vec2<u32> {
     return textureLoad(guide, pixel, 0).xy;
 }
 
-fn gloss_at(pixel: vec2<i32>) -> u32 {
-    return textureLoad(gloss, pixel, 0).x;
+fn gloss_at(pixel: vec2<i32>) -> vec2<u32> {
+    return textureLoad(gloss, pixel, 0).xy;
 }
 #endif
 #ifndef STILL
@@ -78,27 +78,13 @@ fn gloss_at(pixel: vec2<i32>) -> u32 {
 @group(0) @binding(7) var reflection_motion: texture_2d<f32>;
 #endif
 #endif
-#ifdef OBJECTS
-@group(0) @binding(5) var object: texture_2d<u32>;
-#endif
-@group(0) @binding(8) var guide_out: texture_storage_2d<rg32uint, write>;
-// Former place of the reflection less its place, in pixels, and the distance of what is reflected; then the motion of the surface, so that
-// the passes that follow read one image.
-@group(0) @binding(9) var reflection_out: texture_storage_2d<rgba32uint, write>;
+@group(0) @binding(9) var reflection_out: texture_storage_2d<rg32uint, write>;
 
 // Cosine of normals that belong to one curved surface: acos 0.8 is 37°.
 const SAME_SURFACE: f32 = 0.8;
 
 // Distance of what is reflected where no path tells, in parts of the depth.
 const UNKNOWN_DISTANCE: f32 = 0.5;
-
-fn object_at(pixel: vec2<i32>) -> u32 {
-#ifdef OBJECTS
-    return textureLoad(object, pixel, 0).x;
-#else
-    return 0u;
-#endif
-}
 
 // Least part of the differences of normals, squared, that one curvature explains on a round surface. It is 1 on a ball, ½ on a cylinder and
 // less where surfaces meet.
@@ -113,8 +99,7 @@ struct Around {
     is_round: bool,
 }
 
-fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, exists: bool) -> Around {
-    let own = object_at(pixel);
+fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, own: u32, exists: bool) -> Around {
     let here = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     // Normals are rounded, so neighbours must be a few hundredths of a radian apart in the image.
     let spacing = 1 + i32(frame.size.x >> 9u);
@@ -131,8 +116,9 @@ fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, exists: bool) -> Arou
         let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
         let g = guide_at(clamped);
         let n = unpack_normal(g.x);
-        let there = unpack_gloss(gloss_at(clamped));
-        let same = inside(tap) && g.y != 0u && there.exists && object_at(clamped) == own && dot(n, normal) >= SAME_SURFACE;
+        let texel = gloss_at(clamped);
+        let there = unpack_gloss(texel.x);
+        let same = inside(tap) && g.y != 0u && there.exists && texel.y == own && dot(n, normal) >= SAME_SURFACE;
         let p = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(clamped)), bitcast<f32>(g.y)) - here;
         turned += select(0.0, dot(n - normal, p), same);
         apart += select(0.0, dot(p, p), same);
@@ -173,12 +159,12 @@ const MOVED: f32 = 1e-4;
 // Difference of normals from which on a surface has turned: two normals of 10 bits differ by as much from rounding alone.
 const TURNED: f32 = 0.0035;
 
-// The surface's own motion, packed.
-fn surface_motion(pixel: vec2<i32>, depth: f32) -> vec2<u32> {
+// The surface's own motion and former depth.
+fn surface_motion(pixel: vec2<i32>, depth: f32) -> vec3<f32> {
 #ifdef HOST_MOTION
-    return host_motion(pixel, depth).packed;
+    return unpack_motion(host_motion(pixel, depth).packed);
 #else
-    return textureLoad(motion, pixel, 0).xy;
+    return unpack_motion(textureLoad(motion, pixel, 0).xy);
 #endif
 }
 
@@ -261,7 +247,8 @@ fn former_normal(place: vec2<f32>, normal: vec3<f32>, own: u32, has_moved: bool)
 }
 
 // The motion of the reflection, in pixels.
-fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: Around, moved: vec3<f32>) -> vec2<f32> {
+fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, object: u32, near: Around) -> vec2<f32> {
+    let moved = surface_motion(pixel, depth);
     let point = sample_point(frame.camera, vec2<f32>(pixel));
     let here = seen_position(frame.camera, point, depth);
     let d = normalize(ray_direction(frame.camera, point));
@@ -274,7 +261,6 @@ fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: A
     // Failure: reflections on curved mirrors were off by the change of the jitter. Reason: a motion counts without either frame's jitter,
     // but the last frame's G-buffer was sampled with its own. Rule: places in that G-buffer are off by the difference.
     let jitter = vec2(frame.previous.jitter_x - frame.camera.jitter_x, frame.previous.jitter_y - frame.camera.jitter_y);
-    let object = object_at(pixel);
     let has_moved = distance(was, here) > MOVED * scale_at(frame.camera, depth);
     let turned = former_normal(vec2<f32>(pixel) + moved.xy - jitter, normal, object, has_moved);
 #ifdef INSTANCED
@@ -311,19 +297,17 @@ fn reflection_motion_of(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, near: A
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
     let g = guide_at(pixel);
-    let bits = gloss_at(pixel);
-    let own = specular_guide(g, bits);
-    let exists = own.y != 0u && inside(pixel);
+    let own = gloss_at(pixel);
+    let code = own.x & 0xffu;
+    let exists = code != 0u && g.y != 0u && inside(pixel);
     let depth = bitcast<f32>(g.y);
     let normal = normalize(unpack_normal(g.x));
-    let near = around(pixel, depth, normal, exists);
+    let near = around(pixel, depth, normal, own.y, exists);
 #ifdef STILL
     let shift = vec2(0.0);
-    let surface = vec2(0u);
 #else
-    let surface = surface_motion(pixel, depth);
-    let shift = reflection_motion_of(pixel, depth, normal, near, unpack_motion(surface));
+    let shift = reflection_motion_of(pixel, depth, normal, own.y, near);
 #endif
-    textureStore(guide_out, pixel, vec4(own, 0u, 0u));
-    textureStore(reflection_out, pixel, select(vec4(0u), vec4(pack_motion(shift, near.hit_distance), surface), exists));
+    let packed = pack_reflection(shift, near.hit_distance, code);
+    textureStore(reflection_out, pixel, vec4(select(vec2(0u), packed, exists), 0u, 0u));
 }

@@ -27,10 +27,13 @@
 #import asvgf::packing::pack_tap
 #endif
 #ifdef OUTLIERS
-#import asvgf::outliers::{LEAST_LEVEL, bound, ratio_to, unpack_candidate, unpack_limit}
+#import asvgf::outliers::{LEAST_LEVEL, bound, ratio_of, ratio_to, unpack_limit}
 #ifdef DIAGNOSTICS
 #import asvgf::counts::counts
 #endif
+#endif
+#ifdef SPECULAR_SIGNAL
+#import asvgf::history_taps::reflection_at
 #endif
 #ifdef STILL
 #import asvgf::history_taps::own_history
@@ -38,9 +41,8 @@
 #import asvgf::history_taps::{LEAST_WEIGHT, TapSum, add_tap, bilinear_taps, corner_of, mean_of, motion_of, origin_at}
 #import asvgf::reproject::Origin
 #ifdef SPECULAR_SIGNAL
-#import asvgf::history_taps::reflection_at
 #import asvgf::reproject::in_mirror
-#import asvgf::gloss::{guide_roughness, lobe_width}
+#import asvgf::gloss::{Reflection, lobe_width}
 #import asvgf::specular_history::{combined, evidence_around, weight_of}
 #endif
 #ifdef MIXED_GLOSS
@@ -82,7 +84,6 @@
 @group(0) @binding(16) var reprojected_out: texture_storage_2d<rg32uint, write>;
 #endif
 #ifdef OUTLIERS
-@group(0) @binding(17) var candidates: texture_2d<u32>;
 @group(0) @binding(18) var limit: texture_2d<u32>;
 #endif
 #ifdef KEEP_WEIGHTS
@@ -144,12 +145,11 @@ fn reproject(pixel: vec2<i32>, moved: vec2<f32>, origin: Origin, seen: bool) -> 
 #ifdef SPECULAR_SIGNAL
 #ifndef STILL
 // The history of the specular light, see specular_history.wgsl.
-fn reproject_gloss(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, g: vec2<u32>, depth: f32, seen: bool) -> History {
-    let reflection = reflection_at(pixel);
+fn reproject_gloss(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, reflection: Reflection, depth: f32, seen: bool) -> History {
     let surface = reproject(pixel, m.xy, origin, seen);
-    let reflected = reproject(pixel, reflection.xy, in_mirror(origin), seen);
-    let width = lobe_width(guide_roughness(g), reflection.z, depth);
-    return combined(surface, reflected, weight_of(evidence_around(pixel, origin.normal)), reflection.xy, m.xy, width);
+    let reflected = reproject(pixel, reflection.motion, in_mirror(origin), seen);
+    let width = lobe_width(reflection.roughness, reflection.hit_distance, depth);
+    return combined(surface, reflected, weight_of(evidence_around(pixel, origin.normal)), reflection.motion, m.xy, width);
 }
 #endif
 #endif
@@ -210,15 +210,15 @@ struct Belief {
 
 fn belief_in(pixel: vec2<u32>, l: f32, level: f32, length: f32, lambda: f32) -> Belief {
     let stratum = stratum_of(pixel);
-    let believed = unpack_limit(textureLoad(limit, stratum, 0));
-    let candidate = unpack_candidate(textureLoad(candidates, stratum, 0));
+    let believed = unpack_limit(textureLoad(limit, stratum, 0).xy);
     let known = max(level, max(LEAST_LEVEL * believed.expected, lambda * believed.level));
     let base = select(known, believed.level, length <= 0.0);
     let ratio = ratio_to(bound(base, length), l);
-    let over = ratio > believed.ratio;
+    let most = ratio_of(believed.ratio_class);
+    let over = ratio > most;
     // Outliers are rare, so light that stays is light: the same pixel in so many frames running, or any pixel of the same stratum.
-    let confirmed = (is_at(candidate.place, pixel) && candidate.sightings == believed.sightings) || (over && candidate.running >= believed.sightings);
-    var scale = select(1.0, believed.ratio / max(ratio, 1e-9), over && !confirmed);
+    let confirmed = (is_at(believed.place, pixel) && believed.sightings == believed.asked) || (over && believed.running >= believed.asked);
+    var scale = select(1.0, most / max(ratio, 1e-9), over && !confirmed);
 #ifdef EXTERNAL_LAMBDA
     // The host's λ comes first: where it drops the history, this sample is all there is.
     scale = mix(scale, 1.0, lambda);
@@ -246,7 +246,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let g = textureLoad(guide, pixel, 0).xy;
     let depth = bitcast<f32>(g.y);
     // A miss takes the same way as a surface, and its result is not stored.
+#ifdef SPECULAR_SIGNAL
+    let reflection = reflection_at(pixel);
+    let seen = depth > 0.0 && reflection.exists;
+#else
     let seen = depth > 0.0;
+#endif
     let normal = unpack_normal(g.x);
     let arrived = sample_at(pixel, seen);
 #ifdef OUTLIERS
@@ -269,7 +274,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let m = motion_of(pixel, depth);
         let origin = origin_at(pixel, m, normal);
 #ifdef SPECULAR_SIGNAL
-        history = reproject_gloss(pixel, m, origin, g, depth, seen);
+        history = reproject_gloss(pixel, m, origin, reflection, depth, seen);
 #else
         history = reproject(pixel, m.xy, origin, seen);
 #endif
@@ -278,7 +283,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #ifdef STEADY
 #ifdef SPECULAR_SIGNAL
-        moved = reflection_at(pixel).xy;
+        moved = reflection.motion;
 #else
         moved = m.xy;
 #endif

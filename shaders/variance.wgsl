@@ -8,6 +8,9 @@
 #ifdef FEEDBACK
 #import asvgf::packing::unpack_rgb
 #endif
+#ifdef SPECULAR_SIGNAL
+#import asvgf::gloss::{roughness_code, specular_guide}
+#endif
 #import asvgf::edge_stop::{falloff, Plane, tangent_plane, plane_distance}
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
@@ -16,6 +19,11 @@
 @group(0) @binding(3) var feedback: texture_2d<u32>;
 #endif
 @group(0) @binding(4) var color_out: texture_storage_2d<rg32uint, write>;
+#ifdef SPECULAR_SIGNAL
+@group(0) @binding(5) var reflection: texture_2d<u32>;
+// The guide of the spatial filter: the surface's, with the roughness.
+@group(0) @binding(6) var guide_out: texture_storage_2d<rg32uint, write>;
+#endif
 
 // History length below which the variance is estimated from neighbours: four frames (Schied et al. 2017, §4.2).
 const SHORT_HISTORY: f32 = 4.0;
@@ -245,6 +253,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let length = history_length(h);
     let short = length > 0.0 && length < SHORT_HISTORY;
     let g = textureLoad(guide, pixel, 0).xy;
+#ifdef SPECULAR_SIGNAL
+    let own_guide = specular_guide(g, roughness_code(textureLoad(reflection, pixel, 0).xy));
+    textureStore(guide_out, pixel, vec4(own_guide, 0u, 0u));
+#endif
     let normal = unpack_normal(g.x);
     let plane = tangent_plane(vec2<f32>(pixel), normal, bitcast<f32>(g.y));
     let center = mean_luminance(h);
@@ -268,10 +280,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let on_surface = neighbour_weight(plane, normal, offset, there);
         let other = textureLoad(history, near, 0).xy;
 #ifdef MISSING_SAMPLES
-        let w = select(0.0, on_surface, inside(tap) && history_length(other) > 0.0);
+        let there_is_one = history_length(other) > 0.0;
 #else
-        let w = select(0.0, on_surface, inside(tap));
+#ifdef SPECULAR_SIGNAL
+        let there_is_one = history_length(other) > 0.0;
+#else
+        let there_is_one = true;
 #endif
+#endif
+        let w = select(0.0, on_surface, inside(tap) && there_is_one);
         let l = mean_luminance(other);
         let d = l - center;
         first += w * d;
@@ -314,7 +331,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef MISSING_SAMPLES
     // An infinite sample is shown, with a deviation of 0: it is so far from all others that the filter does not mix it with them.
     let infinite = any(h != vec2(0u));
-    var other = filled(pixel, plane, normal, length <= 0.0 && g.y != 0u && !infinite);
+#ifdef SPECULAR_SIGNAL
+    let shown = own_guide.y != 0u;
+#else
+    let shown = g.y != 0u;
+#endif
+    var other = filled(pixel, plane, normal, length <= 0.0 && shown && !infinite);
     other = select(other, pack_tap(color, 0.0), infinite);
 #else
     let other = vec2(0u);

@@ -434,13 +434,13 @@ fn picture(v: vec3<f32>) -> vec3<f32> {
 #endif
 
 #ifdef VIEW_HIT_DISTANCE
-#import asvgf::gloss::unpack_gloss
+#import asvgf::gloss::{unpack_gloss, unpack_reflection}
 
 @group(0) @binding(8) var gloss: texture_2d<u32>;
 @group(0) @binding(7) var reflection: texture_2d<u32>;
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
-    let smoothed = unpack_motion(textureLoad(reflection, pixel, 0).xy).z;
+    let smoothed = unpack_reflection(textureLoad(reflection, pixel, 0).xy).hit_distance;
     return vec3(smoothed, unpack_gloss(textureLoad(gloss, pixel, 0).x).hit_distance, 0.0);
 }
 
@@ -449,15 +449,31 @@ fn picture(v: vec3<f32>) -> vec3<f32> {
 }
 #endif
 
+#ifdef VIEW_REFLECTION_MOTION
+#import asvgf::gloss::unpack_reflection
+
+@group(0) @binding(7) var reflection: texture_2d<u32>;
+
+fn value(pixel: vec2<i32>) -> vec3<f32> {
+    let reflection = unpack_reflection(textureLoad(reflection, pixel, 0).xy);
+    return vec3(reflection.motion, reflection.hit_distance);
+}
+
+fn picture(v: vec3<f32>) -> vec3<f32> {
+    return centred(v);
+}
+#endif
+
 #ifdef VIEW_AGREEMENT
+#import asvgf::gloss::unpack_reflection
 #import asvgf::specular_history::{evidence_around, weight_of}
 
 @group(0) @binding(5) var guide: texture_2d<u32>;
+@group(0) @binding(7) var reflection: texture_2d<u32>;
 
 fn value(pixel: vec2<i32>) -> vec3<f32> {
-    let g = textureLoad(guide, pixel, 0).xy;
-    let weight = weight_of(evidence_around(pixel, unpack_normal(g.x)));
-    return vec3(select(0.0, weight, g.y != 0u));
+    let weight = weight_of(evidence_around(pixel, unpack_normal(textureLoad(guide, pixel, 0).x)));
+    return vec3(select(0.0, weight, unpack_reflection(textureLoad(reflection, pixel, 0).xy).exists));
 }
 
 fn picture(v: vec3<f32>) -> vec3<f32> {

@@ -4,9 +4,14 @@
 //   roughness: 8 bits, 1 … 255 for 0 … 1
 //   distance from the surface to what its path met along the lobe: 16 bits, see `pack_unsigned`; 0 if that is unknown
 //   specular part of the reflectance: 8 bits
+//
+// A glossy pixel's reflection in 64 bits, 0 where no specular lobe reflects:
+//   motion, see `pack_motion`: 42 bits
+//   roughness: 8 bits, as above
+//   distance from the surface to what it shows: 14 bits, `pack_unsigned` without the last two
 
 #import asvgf::frame::{frame, is_orthographic}
-#import asvgf::packing::{pack_unsigned, unpack_unsigned}
+#import asvgf::packing::{pack_motion, pack_unsigned, unpack_motion, unpack_unsigned}
 
 struct Gloss {
     // Perceptual roughness r; the GGX width is α = r².
@@ -37,6 +42,35 @@ fn unpack_gloss(bits: u32) -> Gloss {
     );
 }
 
+struct Reflection {
+    // Its former place less its place, in pixels.
+    motion: vec2<f32>,
+    // Perceptual roughness of the surface that shows it.
+    roughness: f32,
+    // Distance from the surface to what it shows.
+    hit_distance: f32,
+    // True if there is a specular lobe.
+    exists: bool,
+}
+
+// Packs a reflection on a surface with this code of a roughness.
+fn pack_reflection(motion: vec2<f32>, hit_distance: f32, code: u32) -> vec2<u32> {
+    let moved = pack_motion(motion, 0.0);
+    // No less than the format's least number, 2⁻³⁰: the distance is known.
+    let distance = clamp((pack_unsigned(hit_distance) + 2u) >> 2u, 0x100u, 0x3fffu);
+    return vec2(moved.x, moved.y | (code << 10u) | (distance << 18u));
+}
+
+fn unpack_reflection(bits: vec2<u32>) -> Reflection {
+    let code = roughness_code(bits);
+    return Reflection(unpack_motion(bits).xy, roughness_of(code), unpack_unsigned((bits.y >> 18u) << 2u), code != 0u);
+}
+
+// The code of the roughness in a packed reflection.
+fn roughness_code(reflection: vec2<u32>) -> u32 {
+    return (reflection.y >> 10u) & 0xffu;
+}
+
 // The roughness of its code; 0 for a surface without a lobe.
 fn roughness_of(code: u32) -> f32 {
     return f32(max(code, 1u) - 1u) * (1.0 / ROUGH);
@@ -44,8 +78,7 @@ fn roughness_of(code: u32) -> f32 {
 
 // The guide of the specular signal: the surface's, whose depth ends with the code of the roughness, and 0 where there is no lobe. The
 // depth loses less than 2⁻¹⁵ of itself.
-fn specular_guide(guide: vec2<u32>, gloss: u32) -> vec2<u32> {
-    let code = gloss & 0xffu;
+fn specular_guide(guide: vec2<u32>, code: u32) -> vec2<u32> {
     return select(vec2(0u), vec2(guide.x, (guide.y & 0xffffff00u) | code), code != 0u && guide.y != 0u);
 }
 

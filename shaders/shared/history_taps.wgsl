@@ -22,9 +22,14 @@
 @group(0) @binding(5) var object_previous: texture_2d<u32>;
 #endif
 #ifdef SPECULAR_SIGNAL
-#ifndef STILL
+#import asvgf::gloss::{Reflection, unpack_reflection}
+
 @group(0) @binding(30) var reflection: texture_2d<u32>;
-#endif
+
+// The reflection that a pixel shows, see reflection.wgsl.
+fn reflection_at(pixel: vec2<i32>) -> Reflection {
+    return unpack_reflection(textureLoad(reflection, pixel, 0).xy);
+}
 #endif
 #ifdef FEEDBACK
 @group(0) @binding(8) var feedback_previous: texture_2d<u32>;
@@ -106,23 +111,12 @@ fn own_history(pixel: vec2<i32>) -> History {
 #else
 // Motion of the surface: its former place less its place, in pixels, and its former depth.
 fn motion_of(pixel: vec2<i32>, depth: f32) -> vec3<f32> {
-#ifdef SPECULAR_SIGNAL
-    return unpack_motion(textureLoad(reflection, pixel, 0).zw);
-#else
 #ifdef HOST_MOTION
     return unpack_motion(host_motion(pixel, depth).packed);
 #else
     return unpack_motion(textureLoad(motion, pixel, 0).xy);
 #endif
-#endif
 }
-
-#ifdef SPECULAR_SIGNAL
-// Motion of the reflection, in pixels, and the distance of what is reflected from its surface, see reflection.wgsl.
-fn reflection_at(pixel: vec2<i32>) -> vec3<f32> {
-    return unpack_motion(textureLoad(reflection, pixel, 0).xy);
-}
-#endif
 
 // The pixel's surface as it was in the last frame.
 fn origin_at(pixel: vec2<i32>, moved: vec3<f32>, normal: vec3<f32>) -> Origin {
@@ -168,6 +162,11 @@ fn add_tap(sum: ptr<function, TapSum>, origin: Origin, place: vec2<i32>, bilinea
 #ifdef MISSING_SAMPLES
     (*sum).surface += weight;
     weight = select(0.0, weight, history_length(h) > 0.0);
+#else
+#ifdef SPECULAR_SIGNAL
+    // A part of the surface without a specular lobe has no history.
+    weight = select(0.0, weight, history_length(h) > 0.0);
+#endif
 #endif
 #ifdef FEEDBACK
     let color = unpack_rgb(textureLoad(feedback_previous, tap, 0).xy);

@@ -1,6 +1,6 @@
 #define_import_path asvgf::outliers
 
-// The bound on a sample's luminance, from the light that its surroundings have shown. Candidates and limits take two texels per stratum.
+// The bound on a sample's luminance, from the light that its surroundings have shown.
 //
 // Failure: twelve pixels of 6·10⁴ in each of eight frames made a room of 0.15 brighter by a factor of 128 on average. Reason: a
 // mean has no bound on what one sample can do to it. Rule: a sample of luminance l is believed as far as
@@ -72,36 +72,82 @@ fn unpack_candidate(bits: vec4<u32>) -> Candidate {
     );
 }
 
-// The limit on samples of a stratum, see outlier_limit.wgsl.
+// The limit on samples of a stratum, see outlier_limit.wgsl. It takes 64 bits.
 struct Limit {
-    // R of the rule above.
-    ratio: f32,
+    // Class of R in the rule above, see `ratio_of`.
+    ratio_class: u32,
     // Mean luminance of the samples around that are no candidates. It is the level where there is no history.
     level: f32,
-    // Slow mean of the light that the candidates around imply, per pixel.
-    implied: f32,
     // Mean level around.
     expected: f32,
     // Sightings running after which a sample is believed, however bright.
+    asked: u32,
+    // Place, sightings and running sightings of the stratum's candidate, see `Candidate`.
+    place: u32,
     sightings: u32,
+    running: u32,
 }
 
-fn pack_limit(limit: Limit) -> vec4<u32> {
-    return vec4(
-        bitcast<u32>(limit.ratio),
-        bitcast<u32>(limit.level),
-        bitcast<u32>(limit.implied),
-        pack_brief(limit.expected) | (limit.sightings << 16u),
+// The last class of R.
+const ALL: u32 = 14u;
+
+// R of a class: 1 for 0, 8·4^(k − 1) for k, and everything is believed in the last one.
+fn ratio_of(ratio_class: u32) -> f32 {
+    let power = bitcast<f32>((128u + 2u * ratio_class) << 23u);
+    return select(select(power, 1.0, ratio_class == 0u), 3e38, ratio_class == ALL);
+}
+
+fn pack_limit(limit: Limit) -> vec2<u32> {
+    let counts = limit.place | (limit.sightings << 4u) | (limit.running << 7u) | (limit.asked << 10u) | (limit.ratio_class << 13u);
+    return vec2(bitcast<u32>(limit.level), counts | (pack_brief(limit.expected) << 17u));
+}
+
+fn unpack_limit(bits: vec2<u32>) -> Limit {
+    return Limit(
+        (bits.y >> 13u) & 0xfu,
+        bitcast<f32>(bits.x),
+        bitcast<f32>((bits.y >> 17u) << 16u),
+        (bits.y >> 10u) & 0x7u,
+        bits.y & 0xfu,
+        (bits.y >> 4u) & 0x7u,
+        (bits.y >> 7u) & 0x7u,
     );
 }
 
-fn unpack_limit(bits: vec4<u32>) -> Limit {
-    return Limit(
+// The facts on a stratum that the next frame's candidates depend on. They take 128 bits.
+struct Memory {
+    // Luminance of the candidate, and the light that candidates imply, see `Candidate`.
+    brightest: f32,
+    implied: f32,
+    // Slow mean of the light that the candidates around imply, per pixel.
+    around: f32,
+    // Mean level around.
+    expected: f32,
+    // Place, sightings and running sightings of the candidate.
+    place: u32,
+    sightings: u32,
+    running: u32,
+}
+
+fn pack_memory(memory: Memory) -> vec4<u32> {
+    let counts = memory.place | (memory.sightings << 4u) | (memory.running << 7u);
+    return vec4(
+        bitcast<u32>(memory.brightest),
+        bitcast<u32>(memory.implied),
+        bitcast<u32>(memory.around),
+        counts | (pack_brief(memory.expected) << 16u),
+    );
+}
+
+fn unpack_memory(bits: vec4<u32>) -> Memory {
+    return Memory(
         bitcast<f32>(bits.x),
         bitcast<f32>(bits.y),
         bitcast<f32>(bits.z),
-        bitcast<f32>(bits.w << 16u),
-        bits.w >> 16u,
+        bitcast<f32>(bits.w & 0xffff0000u),
+        bits.w & 0xfu,
+        (bits.w >> 4u) & 0x7u,
+        (bits.w >> 7u) & 0x7u,
     );
 }
 

@@ -8,7 +8,7 @@
 #import asvgf::color::luminance
 #import asvgf::frame::frame
 #import asvgf::history::{history_color, history_length}
-#import asvgf::outliers::{bound, ratio_to, unpack_limit}
+#import asvgf::outliers::{bound, ratio_of, ratio_to, unpack_limit}
 #ifdef PAIRS
 #import asvgf::strata::sample_pixel
 #endif
@@ -26,7 +26,7 @@ const LEEWAY: f32 = 1.6;
 
 // True if neither radiance is brighter than light is believed to be there (outliers.wgsl).
 fn is_believed(record: vec4<u32>, stratum: vec2<i32>, now: vec3<f32>, before: vec3<f32>) -> bool {
-    let believed = unpack_limit(textureLoad(limit, stratum, 0));
+    let believed = unpack_limit(textureLoad(limit, stratum, 0).xy);
 #ifdef PAIRS
     let pixel = min(sample_pixel(record, stratum), vec2<i32>(frame.size) - 1);
 #else
@@ -36,7 +36,7 @@ fn is_believed(record: vec4<u32>, stratum: vec2<i32>, now: vec3<f32>, before: ve
     let known = frame.continued != 0u;
     let level = select(0.0, luminance(history_color(h)), known);
     let most = LEEWAY * bound(max(level, max(believed.expected, believed.level)), select(0.0, history_length(h), known));
-    return ratio_to(most, max(luminance(now), luminance(before))) <= believed.ratio;
+    return ratio_to(most, max(luminance(now), luminance(before))) <= ratio_of(believed.ratio_class);
 }
 #endif
 

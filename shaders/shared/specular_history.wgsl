@@ -15,6 +15,7 @@
 
 #import asvgf::frame::frame
 #import asvgf::history_taps::History
+#import asvgf::evidence::{Evidence, unpack_evidence}
 #import asvgf::packing::unpack_normal
 #import asvgf::strata::stratum_of
 
@@ -40,18 +41,8 @@ fn weight_of(evidence: vec2<f32>) -> f32 {
     return 1.0 / (1.0 + exp(-clamp(z, -MOST_EVIDENCE, MOST_EVIDENCE)));
 }
 
-// Evidence of a stratum, and the normal that it is for.
-struct Evidence {
-    // t and s.
-    sums: vec2<f32>,
-    normal: u32,
-    // True if the stratum compared anything.
-    exists: bool,
-}
-
 fn evidence_at(stratum: vec2<i32>) -> Evidence {
-    let texel = textureLoad(agreement, stratum, 0);
-    return Evidence(bitcast<vec2<f32>>(texel.xy), texel.z, texel.w != 0u);
+    return unpack_evidence(textureLoad(agreement, stratum, 0).xy);
 }
 
 // Evidence of the 3×3 strata around a pixel, on surfaces of its direction.

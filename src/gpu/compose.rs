@@ -20,8 +20,9 @@ const SHARED: &[(&str, &str)] = &[
     ("host_light", include_str!("../../shaders/shared/host_light.wgsl")),
     ("sample", include_str!("../../shaders/shared/sample.wgsl")),
     ("reproject", include_str!("../../shaders/shared/reproject.wgsl")),
-    ("history_taps", include_str!("../../shaders/shared/history_taps.wgsl")),
     ("gloss", include_str!("../../shaders/shared/gloss.wgsl")),
+    ("history_taps", include_str!("../../shaders/shared/history_taps.wgsl")),
+    ("evidence", include_str!("../../shaders/shared/evidence.wgsl")),
     ("specular_history", include_str!("../../shaders/shared/specular_history.wgsl")),
     ("means", include_str!("../../shaders/shared/means.wgsl")),
     ("pairs", include_str!("../../shaders/shared/pairs.wgsl")),
@@ -29,6 +30,7 @@ const SHARED: &[(&str, &str)] = &[
     ("pair_taps", include_str!("../../shaders/shared/pair_taps.wgsl")),
     ("strata_filter", include_str!("../../shaders/shared/strata_filter.wgsl")),
     ("strata_taps", include_str!("../../shaders/shared/strata_taps.wgsl")),
+    ("means_taps", include_str!("../../shaders/shared/means_taps.wgsl")),
     ("history_ratio", include_str!("../../shaders/shared/history_ratio.wgsl")),
     ("change", include_str!("../../shaders/shared/change.wgsl")),
     #[cfg(feature = "path-tracer")]

@@ -7,10 +7,7 @@ pub(crate) static PASS: Pass = Pass {
     name: "agreement",
     source: include_str!("../../shaders/agreement.wgsl"),
     grid: Strata,
-    features: &[
-        shared::HOST_INPUT,
-        &[knows(Objects), knows(Feedback), knows(MissingSamples), knows(Steady), knows(SpecularSignal)],
-    ],
+    features: &[shared::HOST_INPUT, &[knows(Objects), knows(Feedback), knows(MissingSamples), knows(SpecularSignal)]],
     bindings: &[shared::SAMPLE_AND_HISTORY, shared::SAME_SURFACE, &[out("agreement_out", Image::Agreement)]],
     traces: false,
 };

@@ -98,8 +98,7 @@ impl Slot {
     pub(super) fn specular(self, features: Features) -> Self {
         match self {
             // Both signals find the last frame's surfaces there, and repeat the same paths.
-            Self::Before(Image::Guide) => self.first(features),
-            Self::Now(Image::Object) | Self::Before(Image::Object) => self.first(features),
+            Self::Before(Image::Guide) => self,
             Self::Now(Image::Samples) | Self::Before(Image::Samples) if features.has(Feature::Reshade) => self,
             Self::Now(image) => Self::Now(image.specular()),
             Self::Before(image) => Self::Before(image.specular()),
@@ -310,7 +309,8 @@ impl Binding {
         };
         let specular = self.of.unwrap_or(plan.has(Feature::SpecularSignal));
         let slot = if specular { slot.specular(plan) } else { slot };
-        let slot = if self.first { slot.first(plan) } else { slot };
+        // Reflections belong to the surfaces that rays meet first.
+        let slot = if self.first || plan.has(Feature::SpecularSignal) { slot.first(plan) } else { slot };
         Bound { name: self.name, slot, written: self.written }
     }
 }

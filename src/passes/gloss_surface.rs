@@ -16,11 +16,13 @@ pub(crate) static PASS: Pass = Pass {
         knows(VertexColors),
         knows(Specular),
         knows(Gloss),
+        knows(Objects),
     ]],
     bindings: &[&[
         now("visibility", Image::Visibility),
         now("specular_radiance", Image::Radiance).of_specular(),
         out("specular_albedo_out", Image::Albedo).of_specular(),
+        now("object", Image::Object).of_first().with(Objects),
         out("gloss_out", Image::Gloss),
     ]],
     traces: false,

@@ -2,8 +2,8 @@
 
 use super::prelude::*;
 
-/// The coarsest level of the pyramid: its mean is over as many samples as there are in 2100 strata.
-pub(crate) const COARSEST: u8 = 5;
+/// The coarsest level that is stored. This pass makes one more: its mean is over as many samples as there are in 2100 strata.
+pub(crate) const STORED: u8 = 4;
 
 pub(crate) static PASS: Pass = Pass {
     name: "gradient_of_means",
@@ -11,13 +11,11 @@ pub(crate) static PASS: Pass = Pass {
     grid: Strata,
     features: &[&[knows(HistoryRatio)]],
     bindings: &[&[
-        now("samples", Image::Samples),
-        now("now_coarse", Image::MeansNow(COARSEST)),
-        now("before_coarse", Image::MeansBefore(COARSEST)),
-        now("now_middle", Image::MeansNow(COARSEST - 1)),
-        now("before_middle", Image::MeansBefore(COARSEST - 1)),
-        now("now_fine", Image::MeansNow(COARSEST - 2)),
-        now("before_fine", Image::MeansBefore(COARSEST - 2)),
+        now("samples", Image::Samples).at_many_taps(),
+        level("now", Image::MeansNow).at_many_taps(),
+        level("before", Image::MeansBefore),
+        now("now_fine", Image::MeansNow(STORED - 1)),
+        now("before_fine", Image::MeansBefore(STORED - 1)),
         out("ratio_out", Image::Ratio).with(HistoryRatio),
         out("gradient_out", Image::Gradient(0)),
     ]],

@@ -72,13 +72,15 @@ pub enum Image {
     CandidateCounts,
     /// Light that the pixels of a row show.
     CandidateSums,
-    /// Greatest ratio of a sample to its level in each stratum, and that level if there is no history.
+    /// Greatest ratio of a sample to its level in each stratum, that level if there is no history, and the stratum's candidate.
     OutlierLimit,
+    /// Facts on each stratum's candidate and on the light around it, for the next frame.
+    OutlierMemory,
     /// The same of specular light, and the sum of the inverse distances of what is reflected.
     SpecularPaths(u8),
-    /// Roughness, and the distance from the surface to what it reflects, of each path.
+    /// Roughness, the distance from the surface to what it reflects, of each path, and the number of the object.
     Gloss,
-    /// Motion of the reflection and its smoothed distance from the surface; motion of the surface and its previous depth.
+    /// Motion of the reflection, roughness, and the smoothed distance from the surface to what it reflects.
     Reflection,
     /// Evidence of each stratum for the reflection's former place against the surface's.
     Agreement,
@@ -143,6 +145,7 @@ twins! {
     CandidateCounts,
     CandidateSums,
     OutlierLimit,
+    OutlierMemory,
 }
 
 /// The texels of an image, or the invocations of a pass.
@@ -232,10 +235,11 @@ impl Image {
             Self::Candidates => ("candidates", Rgba32Uint, Strata),
             Self::CandidateCounts => ("candidate counts", Rgba32Uint, Strata),
             Self::CandidateSums => ("candidate sums", Rgba32Uint, Strata),
-            Self::OutlierLimit => ("outlier limit", Rgba32Uint, Strata),
-            Self::Gloss => ("gloss", R32Uint, Pixels),
-            Self::Reflection => ("reflection", Rgba32Uint, Pixels),
-            Self::Agreement => ("agreement", Rgba32Uint, Strata),
+            Self::OutlierLimit => ("outlier limit", Rg32Uint, Strata),
+            Self::OutlierMemory => ("outlier memory", Rgba32Uint, Strata),
+            Self::Gloss => ("gloss", Rg32Uint, Pixels),
+            Self::Reflection => ("reflection", Rg32Uint, Pixels),
+            Self::Agreement => ("agreement", Rg32Uint, Strata),
             // The path tracer keeps the distance of what is reflected beside it.
             Self::Specular(Twin::Radiance) => ("specular radiance", Rgba32Uint, Pixels),
             Self::Specular(twin) => twin.image().row(),

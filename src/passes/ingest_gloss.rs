@@ -14,6 +14,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(Reflectance),
         knows(MixedGloss),
         knows(Albedo).with(MixedGloss).with(Reflectance),
+        knows(Objects).unless(MixedGloss),
     ]],
     bindings: &[&[
         now("guide", Image::Guide),
@@ -21,6 +22,7 @@ pub(crate) static PASS: Pass = Pass {
         host("hit_distance", HostView::HitDistance).with(HitDistance),
         host("reflectance", HostView::Reflectance).with(Reflectance),
         host("albedo", HostView::Albedo).with(Albedo),
+        now("object", Image::Object).with(Objects),
         out("gloss_out", Image::Gloss),
     ]],
     traces: false,

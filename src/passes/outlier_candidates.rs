@@ -8,14 +8,7 @@ pub(crate) static PASS: Pass = Pass {
     grid: Strata,
     features: &[
         shared::HOST_INPUT,
-        &[
-            knows(Still),
-            knows(InPlace),
-            knows(MissingSamples),
-            knows(Steady),
-            knows(Gloss),
-            knows(SpecularSignal).unless(Still),
-        ],
+        &[knows(Still), knows(InPlace), knows(MissingSamples), knows(Steady), knows(Gloss), knows(SpecularSignal)],
     ],
     bindings: &[
         shared::SAMPLE_AND_HISTORY,
@@ -23,8 +16,7 @@ pub(crate) static PASS: Pass = Pass {
             now("motion", Image::Motion).or_host(HostMotion, HostView::Motion).unless(Still).unless(SpecularSignal),
             host("previous_depth", HostView::PreviousDepth).with(PreviousDepth).unless(Still).unless(SpecularSignal),
             now("samples", Image::Samples).with(InPlace),
-            before("candidates_previous", Image::Candidates),
-            before("limit_previous", Image::OutlierLimit),
+            before("memory_previous", Image::OutlierMemory),
             out("candidates_out", Image::Candidates),
         ],
     ],

@@ -12,6 +12,7 @@ pub(crate) static PASS: Pass = Pass {
         now("candidate_counts", Image::CandidateCounts),
         now("sums", Image::CandidateSums),
         out("limit_out", Image::OutlierLimit),
+        out("memory_out", Image::OutlierMemory),
     ]],
     traces: false,
 };

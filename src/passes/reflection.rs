@@ -9,7 +9,7 @@ pub(crate) static PASS: Pass = Pass {
     features: &[&[
         knows(HostMotion).unless(Still),
         knows(PreviousDepth).with(HostMotion).unless(Still),
-        knows(Objects),
+        knows(Objects).unless(Still),
         knows(Still),
         knows(Instanced).unless(Still),
         knows(ReflectionMotion).unless(Still),
@@ -22,9 +22,7 @@ pub(crate) static PASS: Pass = Pass {
         now("specular_radiance", Image::Radiance).of_specular().with(Instanced),
         host("reflection_motion", HostView::ReflectionMotion).with(ReflectionMotion).unless(Still),
         before("guide_previous", Image::Guide).of_first().at_many_taps().unless(Still),
-        now("object", Image::Object).of_first().with(Objects),
         before("object_previous", Image::Object).of_first().with(Objects).unless(Still),
-        out("guide_out", Image::Guide).of_specular(),
         out("reflection_out", Image::Reflection),
     ]],
     traces: false,

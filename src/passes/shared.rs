@@ -28,14 +28,14 @@ pub(super) const HOST_INPUT: &[Known] = &[
 
 /// A pixel's sample, and the images of the last frame: sample.wgsl, history_taps.wgsl.
 pub(super) const SAMPLE_AND_HISTORY: &[Binding] = &[
-    now("guide", Image::Guide),
+    now("guide", Image::Guide).of_surfaces(),
     now("radiance", Image::Radiance).or_host(HostLight, HostView::Radiance),
     host("albedo", HostView::Albedo).with(Albedo),
     host("emission", HostView::Emission).with(DirectEmission),
     before("history_previous", Image::History).at_many_taps(),
     before("feedback_previous", Image::Feedback).with(Feedback),
     before("output_previous", Image::Output).with(Steady),
-    now("reflection", Image::Reflection).with(SpecularSignal).unless(Still),
+    now("reflection", Image::Reflection).with(SpecularSignal),
 ];
 
 /// The evidence for the reflection's former place: specular_history.wgsl.
@@ -43,8 +43,8 @@ pub(super) const AGREEMENT: &[Binding] = &[now("agreement", Image::Agreement).wi
 
 /// The images that lead to the surface in the last frame, and tell whether it shows the same surface there: reproject.wgsl.
 pub(super) const SAME_SURFACE: &[Binding] = &[
-    now("motion", Image::Motion).or_host(HostMotion, HostView::Motion).unless(Still).unless(SpecularSignal),
-    host("previous_depth", HostView::PreviousDepth).with(PreviousDepth).unless(Still).unless(SpecularSignal),
+    now("motion", Image::Motion).or_host(HostMotion, HostView::Motion).unless(Still),
+    host("previous_depth", HostView::PreviousDepth).with(PreviousDepth).unless(Still),
     before("guide_previous", Image::Guide).at_many_taps().unless(Still),
     now("object", Image::Object).with(Objects).unless(Still),
     before("object_previous", Image::Object).with(Objects).unless(Still),

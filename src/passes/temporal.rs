@@ -40,7 +40,6 @@ pub(crate) static PASS: Pass = Pass {
             now("ratio", Image::Ratio).with(HistoryRatio),
             host("external_lambda", HostView::Lambda).with(ExternalLambda),
             now("gloss", Image::Gloss).with(MixedGloss),
-            now("candidates", Image::Candidates).with(Outliers),
             now("limit", Image::OutlierLimit).with(Outliers),
             out("feedback_out", Image::Feedback).with(Feedback),
             out("reprojected_out", Image::Reprojected).with(Steady),

@@ -16,9 +16,11 @@ pub(crate) static PASS: Pass = Pass {
         knows(Clamp).with(MixedGloss),
     ]],
     bindings: &[&[
-        now("guide", Image::Guide),
+        now("guide", Image::Guide).of_surfaces(),
         now("history", Image::History),
         now("feedback", Image::Feedback).with(Feedback),
+        now("reflection", Image::Reflection).with(SpecularSignal),
+        out("guide_out", Image::Guide).with(SpecularSignal),
         out("color_out", Image::Color(0)),
     ]],
     traces: false,

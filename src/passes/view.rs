@@ -55,6 +55,7 @@ const MOTION: Binding = now("motion", Image::Motion);
 const WEIGHTS: Binding = now("weights", Image::Weights);
 const SAMPLES: Binding = now("samples", Image::Samples);
 const GLOSS_IMAGE: Binding = now("gloss", Image::Gloss);
+const REFLECTION: Binding = now("reflection", Image::Reflection);
 const COLOR: Binding = chosen("color");
 const SPECULAR_COLOR: Binding = chosen("specular_color").of_specular();
 
@@ -247,29 +248,14 @@ const fn row(view: View) -> Row {
         }
         View::Roughness => const { Row { needs: &[SHINES, FILTERED], bindings: &[GLOSS_IMAGE], ..GLOSS } },
         View::HitDistance => {
-            const {
-                Row {
-                    needs: &[SHINES, FILTERED],
-                    bindings: &[GLOSS_IMAGE, now("reflection", Image::Reflection)],
-                    ..GLOSS
-                }
-            }
+            const { Row { needs: &[SHINES, FILTERED], bindings: &[GLOSS_IMAGE, REFLECTION], ..GLOSS } }
         }
-        View::ReflectionMotion => {
-            const {
-                Row {
-                    block: Some(View::Motion),
-                    needs: &[SHINES, FILTERED],
-                    bindings: &[now("motion", Image::Reflection)],
-                    ..GLOSS
-                }
-            }
-        }
+        View::ReflectionMotion => const { Row { needs: &[SHINES, FILTERED], bindings: &[REFLECTION], ..GLOSS } },
         View::Agreement => {
             const {
                 Row {
                     needs: &[SHINES, HISTORY, (Need::Not(Still), "nothing changed, so that both places are one")],
-                    bindings: &[GUIDE, now("agreement", Image::Agreement)],
+                    bindings: &[GUIDE.of_surfaces(), REFLECTION, now("agreement", Image::Agreement)],
                     ..GLOSS
                 }
             }

@@ -131,7 +131,7 @@ pub(super) fn hosted(inputs: &HostInputs, settings: &Settings, changes: Changes)
     let lambda = denoise && source == settings::Gradient::Lambda;
     let modulated = !inputs.demodulated && (inputs.albedo || inputs.emission || inputs.specular && inputs.reflectance);
     let reshade = denoise && source == settings::Gradient::Reshade;
-    let [copied_motion, copied_light] = why_copies(inputs, reshade);
+    let [copied_motion, copied_light] = why_copies(inputs, reshade, settings.filter.feedback);
     let rows = [
         (
             OctahedralNormals,
@@ -212,7 +212,7 @@ fn with_gradient(settings: &Settings, gradient: settings::Gradient) -> Settings 
 }
 
 /// The reasons for copying a host's motion and its light, if they are copied.
-fn why_copies(inputs: &HostInputs, reshade: bool) -> [Option<&'static str>; 2] {
+fn why_copies(inputs: &HostInputs, reshade: bool, feedback: bool) -> [Option<&'static str>; 2] {
     let reasons = [
         (reshade, "a copy is kept: repeated paths need it, or the last frame's"),
         (inputs.diagnostics, "a copy is kept: cleaned input is counted once"),
@@ -223,6 +223,10 @@ fn why_copies(inputs: &HostInputs, reshade: bool) -> [Option<&'static str>; 2] {
     let of_light = [
         (inputs.in_target, "a copy is kept: a shader cannot read what it writes"),
         (mixed, "a copy is kept: with the gloss beside it, a shader would bind more than sixteen textures"),
+        (
+            inputs.specular && feedback,
+            "a copy is kept: with the reflection and the fed-back colour beside it, a shader would bind more than sixteen textures",
+        ),
     ];
     [why, why.or(of_light.into_iter().find(|(holds, _)| *holds).map(|(_, why)| why))]
 }

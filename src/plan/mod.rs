@@ -67,7 +67,7 @@ impl Plan {
         if plan.has(Feature::Gloss) {
             plan.run(&gloss_surface::PASS);
         }
-        plan.filter(settings);
+        plan.filter(settings, |_, _| {});
         plan.run_on(&resolve::PASS, plan.color);
         plan
     }
@@ -81,19 +81,11 @@ impl Plan {
             plan.run(&gradient_sample::PASS);
             plan.run(&reshade::PASS);
         }
-        for signal in plan.signals() {
-            if !signal.has(Feature::HostLight) {
-                plan.run_of(signal, &ingest_radiance::PASS);
-            }
-            if signal.has(Feature::Pairs) {
-                plan.run_of(signal, &ingest_pairs::PASS);
-            }
-        }
         let shines = plan.has(Feature::Gloss) || plan.has(Feature::MixedGloss);
         if shines && !plan.has(Feature::Unfiltered) {
             plan.run(&ingest_gloss::PASS);
         }
-        plan.filter(settings);
+        plan.filter(settings, Self::take_in);
         plan.run_on(&resolve::PASS, plan.color);
         plan
     }
@@ -159,12 +151,24 @@ impl Plan {
         }));
     }
 
-    /// Appends the passes from noisy radiance to filtered colour, if the mode filters.
-    fn filter(&mut self, settings: &Settings) {
-        if settings.mode != Mode::Denoise {
-            return;
+    /// Appends the passes that take in a host's light and pairs of a signal.
+    fn take_in(&mut self, signal: Features) {
+        if !signal.has(Feature::HostLight) {
+            self.run_of(signal, &ingest_radiance::PASS);
         }
+        if signal.has(Feature::Pairs) {
+            self.run_of(signal, &ingest_pairs::PASS);
+        }
+    }
+
+    /// Appends the passes from noisy radiance to filtered colour, if the mode filters. A signal is taken in when the one before is
+    /// done, because fewer images are alive at once.
+    fn filter(&mut self, settings: &Settings, take_in: fn(&mut Self, Features)) {
         for signal in self.signals() {
+            take_in(self, signal);
+            if settings.mode != Mode::Denoise {
+                continue;
+            }
             if signal.has(Feature::SpecularSignal) {
                 self.run(&reflection::PASS);
             }
@@ -196,8 +200,9 @@ impl Plan {
     fn measure_gradient(&mut self, signal: Features, filter: &FilterSettings) -> Image {
         if signal.has(Feature::Statistics) {
             self.run_of(signal, &gradient_means::PASS);
-            self.iterate(signal, &gradient_means_filter::PASS, gradient_of_means::COARSEST.into());
-            self.run_of(signal, &gradient_of_means::PASS);
+            let stored = gradient_of_means::STORED.into();
+            self.iterate(signal, &gradient_means_filter::PASS, stored);
+            self.steps.push(Step::nth(&gradient_of_means::PASS, signal, Nth::iteration(stored)));
             return Image::Gradient(0);
         }
         if signal.has(Feature::HistoryRatio) {

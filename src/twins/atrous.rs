@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, SIZES, Texel};
 use super::codec::{
-    assert_close, depth, luminance, pack_motion, pack_tap, radiance, unpack_motion, unpack_normal, unpack_rgb,
+    assert_close, depth, luminance, pack_reflection, pack_tap, radiance, unpack_normal, unpack_reflection, unpack_rgb,
     unpack_tap,
 };
 use super::plane::{V, add, dot, scale, sub};
@@ -189,10 +189,10 @@ fn check_step(settings: &Settings, step: &Step) {
             .iter()
             .map(|_| {
                 let distance = [0.0, 1e-9, 8e9, 0.3, 4.0, random.between(0.0, 10.0)][random.below(6)];
-                pack_motion([random.between(-9.0, 9.0), 0.0, distance])
+                pack_reflection([random.between(-9.0, 9.0), 0.0, distance], 1)
             })
             .collect();
-        let reflected: Vec<f64> = codes.iter().map(|&code| unpack_motion(code)[2]).collect();
+        let reflected: Vec<f64> = codes.iter().map(|&code| unpack_reflection(code)[2]).collect();
         let half = |first: usize| image.iter().map(|t| [t[first], t[first + 1], 0, 0]).collect::<Vec<Texel>>();
         let mut inputs = vec![("color", half(0)), ("guide", half(2))];
         if glossy {

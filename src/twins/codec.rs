@@ -143,6 +143,18 @@ pub(super) fn unpack_motion(words: [u32; 2]) -> V {
     }
 }
 
+/// A reflection: its motion in pixels, the distance of what is reflected, and the code of the roughness.
+pub(super) fn pack_reflection([x, y, distance]: V, code: u32) -> [u32; 2] {
+    let [low, high] = pack_motion([x, y, 0.0]);
+    [low, high | code << 10 | ((pack_unsigned(distance) + 2) >> 2).clamp(0x100, 0x3fff) << 18]
+}
+
+/// The motion and the distance.
+pub(super) fn unpack_reflection(words: [u32; 2]) -> V {
+    let [x, y, _] = unpack_motion(words);
+    [x, y, unpack_unsigned(words[1] >> 18 << 2)]
+}
+
 pub(super) fn pack_normal(n: V) -> u32 {
     let q = n.map(|x| ((x * 511.0).round() as i32 & 0x3ff) as u32);
     q[0] | q[1] << 10 | q[2] << 20

@@ -259,13 +259,13 @@ fn the_gradient_is_what_exceeds_the_noise() {
     let guide = bench.guide(&mut random);
     let records = bench.records(&guide, &mut random);
     // All levels see a change, with more or less noise; now and then there is none at all, or one that starts from black.
-    let levels: Vec<[Means; 3]> = (0..records.len())
+    let levels: Vec<[Means; 2]> = (0..records.len())
         .map(|_| {
             let kind = random.below(8);
             let change = if kind == 0 { 1.0 } else { 10.0_f64.powf(random.between(-1.0, 1.0)) };
             let noise = 10.0_f64.powf(random.between(-3.0, -0.5));
             let before = [0; 3].map(|_| if kind == 1 { 0.0 } else { random.between(0.1, 1.0) });
-            [0; 3].map(|_| {
+            [0; 2].map(|_| {
                 let now = before.map(|b| (if kind == 1 { 0.3 } else { b }) * change * random.between(0.9, 1.1));
                 let (l, b) = (luminance(now), luminance(before));
                 let [n, p] = [noise * l * l, noise * l * b];
@@ -275,23 +275,22 @@ fn the_gradient_is_what_exceeds_the_noise() {
         })
         .collect();
     let texels = |level: usize, which: usize| levels.iter().map(|l| l[level].pack()[which]).collect::<Vec<_>>();
-    let inputs = [
-        ("samples", records.clone()),
-        ("now_coarse", texels(0, 0)),
-        ("before_coarse", texels(0, 1)),
-        ("now_middle", texels(1, 0)),
-        ("before_middle", texels(1, 1)),
-        ("now_fine", texels(2, 0)),
-        ("before_fine", texels(2, 1)),
-    ];
+    let nth = Nth::iteration(gradient_of_means::STORED.into());
+    // The pass makes the coarsest level from the middle one.
+    let inputs = [("samples", records.clone()), ("now", texels(0, 0)), ("before", texels(0, 1))];
+    let coarse = bench.run(&Step::nth(&gradient_means_filter::PASS, Features::default(), nth), &inputs);
+    let [fine_now, fine_before] = [0, 1].map(|which| texels(1, which));
+    let inputs = inputs.into_iter().chain([("now_fine", fine_now), ("before_fine", fine_before)]).collect::<Vec<_>>();
     let mut changed = 0;
     for with_ratio in [false, true] {
         let features = if with_ratio { Features::of(&[Feature::HistoryRatio]) } else { Features::default() };
-        let written = bench.run(&Step::new(&gradient_of_means::PASS, features), &inputs);
+        let written = bench.run(&Step::nth(&gradient_of_means::PASS, features, nth), &inputs);
         for (s, levels) in levels.iter().enumerate() {
             let what = |name| format!("stratum {s}, ratio {with_ratio}: {name}");
             let there = records[s][0] != 0;
-            let (lambda, ratio) = if there { change(levels, with_ratio) } else { (0.0, [1.0; 4]) };
+            let coarsest = Means::unpack([coarse["now_out"][s], coarse["before_out"][s]]);
+            let levels = [coarsest, levels[0], levels[1]];
+            let (lambda, ratio) = if there { change(&levels, with_ratio) } else { (0.0, [1.0; 4]) };
             changed += usize::from(lambda > 0.1);
             let found = written["gradient_out"][s].map(float);
             assert_close(found[0], lambda, 2e-3, || what("λ"));

@@ -29,7 +29,6 @@ pub(super) struct Given {
     pub(super) gradient: Vec<Texel>,
     pub(super) ratio: Vec<Texel>,
     pub(super) external: Vec<Texel>,
-    pub(super) candidates: Vec<Texel>,
     pub(super) limit: Vec<Texel>,
 }
 
@@ -146,7 +145,6 @@ impl Given {
                 _ => [word(random.unit()); 4],
             })
             .collect();
-        let candidates = outliers::candidates(&bench, &mut Random(3));
         let limit = outliers::limits(&bench, &mut Random(4));
         let ratio = samples.iter().map(|_| [0; 4].map(|_| word(random.between(0.25, 4.0)))).collect();
         Self {
@@ -165,7 +163,6 @@ impl Given {
             gradient,
             ratio,
             external,
-            candidates,
             limit,
         }
     }
@@ -186,7 +183,6 @@ impl Given {
             ("gradient", self.gradient.clone()),
             ("ratio", self.ratio.clone()),
             ("external_lambda", self.external.clone()),
-            ("candidates", self.candidates.clone()),
             ("limit", self.limit.clone()),
         ];
         all.into_iter()

@@ -6,7 +6,7 @@
 //! the direction against the view.)
 
 use super::bench::{Bench, Texel, axes};
-use super::codec::{pack_motion, pack_normal, pack_unsigned, unpack_motion, unpack_unsigned, word};
+use super::codec::{pack_motion, pack_normal, pack_unsigned, unpack_motion, unpack_reflection, unpack_unsigned, word};
 use super::plane::{Pinhole, V, add, cross, dot, length, scale, sub, unit};
 use super::reflection::{displacement_code, gloss, packed, reflected};
 use crate::passes::{Step, reflection};
@@ -255,20 +255,22 @@ impl Case {
     fn run(&self) -> Vec<(V, V)> {
         let seen: Vec<_> = self.bench.pixels().map(|(x, y)| self.seen_at(x, y)).collect();
         let motion = self.bench.pixels().zip(&seen).map(|((x, y), seen)| {
-            packed(seen.map_or([0; 2], |(place, ..)| pack_motion(self.motion(x, y, self.way.place(place, 1.0)))))
+            seen.map_or([0; 2], |(place, ..)| pack_motion(self.motion(x, y, self.way.place(place, 1.0))))
         });
+        let motion: Vec<_> = motion.collect();
         let distances: Vec<f64> =
             seen.iter().map(|s| s.map_or(0.0, |(place, normal, d)| self.distance(place, normal, d))).collect();
         let displaced = displacement_code(self.own);
         let inputs = [
             ("guide", self.guide(self.bench.camera, self.mirror)),
             ("guide_previous", self.guide(self.bench.previous, self.mirror.moved(self.way, 1.0))),
-            ("motion", motion.collect()),
+            ("motion", motion.iter().map(|&m| packed(m)).collect()),
             ("gloss", distances.iter().map(|&h| [gloss(0.1, h), 0, 0, 0]).collect()),
             ("specular_radiance", distances.iter().map(|&h| [0, 0, word(h), displaced]).collect()),
         ];
         let out = self.bench.run(&Step::new(&reflection::PASS, Features::of(&[Feature::Instanced])), &inputs);
-        out["reflection_out"].iter().map(|t| (unpack_motion([t[2], t[3]]), unpack_motion([t[0], t[1]]))).collect()
+        let reflections = out["reflection_out"].iter().map(|t| unpack_reflection([t[0], t[1]]));
+        motion.into_iter().map(unpack_motion).zip(reflections).collect()
     }
 
     /// The true motion of a pixel's reflection; `None` if the last frame did not show it.

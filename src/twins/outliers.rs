@@ -69,22 +69,73 @@ impl Candidate {
 
 /// The limit of a stratum.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Limit {
-    pub(super) ratio: f64,
-    pub(super) level: f64,
-    implied: f64,
+struct Limit {
+    ratio: f64,
+    level: f64,
     expected: f64,
-    pub(super) sightings: u32,
+    asked: u32,
+    place: u32,
+    sightings: u32,
+    running: u32,
 }
 
 impl Limit {
+    /// `ratio` is 1, 8·4^k for k = 0…12, or 3·10³⁸.
+    fn pack(self) -> Texel {
+        let class = match self.ratio {
+            1.0 => 0,
+            3e38 => 14,
+            power => (power.log2() as u32 - 1) / 2,
+        };
+        let counts = self.place | self.sightings << 4 | self.running << 7 | self.asked << 10 | class << 13;
+        [word(self.level), counts | (word(self.expected) >> 16) << 17, 0, 0]
+    }
+
+    fn unpack(t: Texel) -> Self {
+        let field = |shift: u32, bits: u32| t[1] >> shift & ((1 << bits) - 1);
+        Self {
+            ratio: match field(13, 4) {
+                0 => 1.0,
+                14 => 3e38,
+                class => 2_f64.powi(2 * class as i32 + 1),
+            },
+            level: float(t[0]),
+            expected: float(t[1] >> 17 << 16),
+            asked: field(10, 3),
+            place: field(0, 4),
+            sightings: field(4, 3),
+            running: field(7, 3),
+        }
+    }
+}
+
+/// The facts on a stratum that the next frame needs.
+#[derive(Clone, Copy, Debug, Default)]
+struct Memory {
+    brightest: f64,
+    implied: f64,
+    around: f64,
+    expected: f64,
+    place: u32,
+    sightings: u32,
+    running: u32,
+}
+
+impl Memory {
+    fn pack(self) -> Texel {
+        let counts = self.place | self.sightings << 4 | self.running << 7;
+        [word(self.brightest), word(self.implied), word(self.around), counts | word(self.expected) & 0xffff_0000]
+    }
+
     fn unpack(t: Texel) -> Self {
         Self {
-            ratio: float(t[0]),
-            level: float(t[1]),
-            implied: float(t[2]),
-            expected: float(t[3] << 16),
-            sightings: t[3] >> 16,
+            brightest: float(t[0]),
+            implied: float(t[1]),
+            around: float(t[2]),
+            expected: float(t[3] & 0xffff_0000),
+            place: t[3] & 0xf,
+            sightings: t[3] >> 4 & 7,
+            running: t[3] >> 7 & 7,
         }
     }
 }
@@ -131,14 +182,13 @@ impl Given {
     ) -> Belief {
         let stratum = self.bench.stratum(x / 3, y / 3).unwrap();
         let limit = Limit::unpack(self.limit[stratum]);
-        let candidate = Candidate::unpack(self.candidates[stratum]);
         let known = level.max(LEAST_LEVEL * limit.expected).max(lambda * limit.level);
         let base = if length > 0.0 { known } else { limit.level };
         let ratio = ratio_to(bound(&self.bench.settings, base, length), l);
         *unsure |= (ratio / limit.ratio - 1.0).abs() < 1e-2;
         let over = ratio > limit.ratio;
-        let here = candidate.place as i32 == y % 3 * 3 + x % 3 + 1;
-        let confirmed = here && candidate.sightings == limit.sightings || over && candidate.running >= limit.sightings;
+        let here = limit.place as i32 == y % 3 * 3 + x % 3 + 1;
+        let confirmed = here && limit.sightings == limit.asked || over && limit.running >= limit.asked;
         let mut scale = if over && !confirmed { limit.ratio / ratio } else { 1.0 };
         if self.has(Feature::ExternalLambda) {
             // The host's λ comes first.
@@ -148,8 +198,8 @@ impl Given {
     }
 }
 
-/// Records that a frame may leave.
-pub(super) fn candidates(bench: &Bench, random: &mut Random) -> Vec<Texel> {
+/// Records that a frame may make.
+fn candidates(bench: &Bench, random: &mut Random) -> Vec<Texel> {
     let [across, down] = bench.size.map(|s| s.div_ceil(3));
     (0..across * down)
         .map(|_| {
@@ -176,21 +226,31 @@ pub(super) fn candidates(bench: &Bench, random: &mut Random) -> Vec<Texel> {
         .collect()
 }
 
-/// Limits that a frame may leave.
+/// Limits that a frame may make.
 pub(super) fn limits(bench: &Bench, random: &mut Random) -> Vec<Texel> {
-    let [across, down] = bench.size.map(|s| s.div_ceil(3));
-    (0..across * down)
-        .map(|_| {
-            let ratio = [1.0, 1.0, 8.0, 3e38][random.below(4)];
-            let level = [0.0, 1e-3, 0.02][random.below(3)];
-            let sightings = if random.below(2) == 0 { 3 } else { 6 };
-            [word(ratio), word(level), word(random.unit()), word(0.01 * random.unit()) >> 16 | sightings << 16]
-        })
-        .collect()
+    let of = |candidate| {
+        let Candidate { place, sightings, running, .. } = Candidate::unpack(candidate);
+        let ratio = [1.0, 1.0, 8.0, 3e38][random.below(4)];
+        let level = [0.0, 1e-3, 0.02][random.below(3)];
+        let asked = if random.below(2) == 0 { 3 } else { 6 };
+        Limit { ratio, level, expected: 0.01 * random.unit(), asked, place, sightings, running }.pack()
+    };
+    candidates(bench, &mut Random(3)).into_iter().map(of).collect()
+}
+
+/// What a frame may leave.
+fn memories(bench: &Bench, random: &mut Random) -> Vec<Texel> {
+    let of = |(candidate, limit)| {
+        let Candidate { brightest, implied, place, sightings, running, .. } = Candidate::unpack(candidate);
+        let Limit { expected, .. } = Limit::unpack(limit);
+        Memory { brightest, implied, around: random.unit(), expected, place, sightings, running }.pack()
+    };
+    let candidates = candidates(bench, &mut Random(7));
+    candidates.into_iter().zip(limits(bench, &mut Random(8))).map(of).collect()
 }
 
 /// A stratum's record by the formulas; the second is true if a threshold was near.
-fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -> (Candidate, bool) {
+fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel]) -> (Candidate, bool) {
     let bench = &given.bench;
     let mut unsure = false;
     let mut now = Candidate::default();
@@ -213,7 +273,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
         let q = bench.continued.then(|| bench.at(tap[0], tap[1])).flatten();
         let n = q.map_or(0.0, |q| given.history[q].length);
         let there = q.map(|_| bench.stratum(tap[0] / 3, tap[1] / 3).unwrap());
-        let last_one = there.map(|there| Candidate::unpack(before[there]));
+        let last_one = there.map(|there| Memory::unpack(before[there]));
         let was_one = last_one.filter(|last| last.place as i32 == tap[1] % 3 * 3 + tap[0] % 3 + 1);
         let Some(sample) = sample.filter(|_| !(given.has(Feature::InPlace) && own)) else {
             carried = was_one.map_or(carried, |last| (at as u32 + 1, last.sightings));
@@ -238,8 +298,7 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
         if given.has(Feature::Steady) {
             level = level.max(luminance(unpack_rgb([given.output[q][0], given.output[q][1]])));
         }
-        let around = Limit::unpack(limits[there.unwrap()]).expected;
-        let least = level.max(LEAST_LEVEL * around);
+        let least = level.max(LEAST_LEVEL * last_one.unwrap().expected);
         let ratio = ratio_to(bound(&bench.settings, least, n), l);
         unsure |= (ratio - 0.5).abs() < 1e-3 || (ratio / farthest - 1.0_f64).abs() < 1e-3;
         let candidate = ratio > 0.5 || (1..7).contains(&sightings) && l > 0.0;
@@ -284,11 +343,11 @@ fn twin(given: &Given, [sx, sy]: [i32; 2], before: &[Texel], limits: &[Texel]) -
     now.implied = implied;
     now.length = length;
     if let Some(there) = last_stratum {
-        let last = Candidate::unpack(before[there]);
+        let last = Memory::unpack(before[there]);
         now.brightest = now.brightest.max(0.6 * last.brightest);
         now.running = last.running;
         now.implied = last.implied + (implied - last.implied) / (length + 1.0_f64).min(16.0);
-        let dark = 1e-10 * Limit::unpack(limits[there]).implied * f64::from(now.seen);
+        let dark = 1e-10 * last.around * f64::from(now.seen);
         unsure |= (now.ordinary / dark - 1.0).abs() < 1e-2;
         if now.ordinary <= dark {
             now.lit = 0;
@@ -313,17 +372,14 @@ fn candidates_are_what_is_far_above_its_level() {
         for (moving, continued) in [(false, true), (true, true), (true, false)] {
             let mut given = Given::new(size, features, Settings::adaptive(), moving);
             given.bench.continued = continued;
-            let mut random = Random(7);
-            let before = candidates(&given.bench, &mut random);
-            let limit = limits(&given.bench, &mut random);
+            let before = memories(&given.bench, &mut Random(9));
             let step = Step::new(&outlier_candidates::PASS, given.features);
             let mut inputs = given.inputs(&step);
-            inputs.push(("candidates_previous", before.clone()));
-            inputs.push(("limit_previous", limit.clone()));
+            inputs.push(("memory_previous", before.clone()));
             let written = &given.bench.run(&step, &inputs)["candidates_out"];
             let [across, down] = size.map(|s| s.div_ceil(3) as i32);
             for (sx, sy) in (0..down).flat_map(|sy| (0..across).map(move |sx| (sx, sy))) {
-                let (expected, near) = twin(&given, [sx, sy], &before, &limit);
+                let (expected, near) = twin(&given, [sx, sy], &before);
                 compared += 1;
                 if near {
                     unsure += 1;
@@ -345,8 +401,8 @@ fn candidates_are_what_is_far_above_its_level() {
     assert!(found * 8 > compared && unsure * 5 < compared, "{found} of {compared}, {unsure} unsure: no grip");
 }
 
-/// The limit of a stratum, from all records of its window at once; the second is true if a threshold was near.
-fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) {
+/// The limit of a stratum and its memory, from all records of its window at once; the last is true if a threshold was near.
+fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, Memory, bool) {
     let extent = bench.size.map(|s| s.div_ceil(3) as i32);
     let range = |at: i32, extent: i32| {
         let start = (at - 6).clamp(0, (extent - 13).max(0));
@@ -383,7 +439,7 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
     // A ratio on the border of two classes may be in either.
     unsure |= classes.iter().any(|c| (c - c.round()).abs() < 1e-4);
     let believed = (0..15).rev().find(|&k| classes.iter().filter(|c| **c >= f64::from(k)).count() as f64 >= asked);
-    let sightings = if doubtful { 6 } else { 3 };
+    let sightings_asked = if doubtful { 6 } else { 3 };
     let ratio = match believed.filter(|_| !doubtful) {
         // Without any sample, everything is believed.
         _ if strata == 0.0 => 3e38,
@@ -392,8 +448,10 @@ fn limit(bench: &Bench, records: &[Texel], [sx, sy]: [i32; 2]) -> (Limit, bool) 
         Some(k) => 8.0 * 4_f64.powi(k),
     };
     let pixels = all_seen.max(1.0);
-    let [implied, level, expected] = [sums[0], sums[1], sums[2]].map(|s| s / pixels);
-    (Limit { ratio, level, implied, expected, sightings }, unsure)
+    let [around, level, expected] = sums.map(|s| s / pixels);
+    let Candidate { brightest, implied, place, sightings, running, .. } = here;
+    let limit = Limit { ratio, level, expected, asked: sightings_asked, place, sightings, running };
+    (limit, Memory { brightest, implied, around, expected, place, sightings, running }, unsure)
 }
 
 #[test]
@@ -422,23 +480,28 @@ fn a_limit_is_what_the_window_has_seen() {
             ("candidate_counts", written.remove("counts_out").unwrap()),
             ("sums", written.remove("sums_out").unwrap()),
         ];
-        let limits = &bench.run(&Step::new(&outlier_limit::PASS, Features::default()), &inputs)["limit_out"];
+        let written = &bench.run(&Step::new(&outlier_limit::PASS, Features::default()), &inputs);
         let [across, down] = size.map(|s| s.div_ceil(3) as i32);
         for (sx, sy) in (0..down).flat_map(|sy| (0..across).map(move |sx| (sx, sy))) {
-            let (expected, near) = limit(&bench, &records, [sx, sy]);
+            let (expected, kept, near) = limit(&bench, &records, [sx, sy]);
             compared += 1;
             if near {
                 unsure += 1;
                 continue;
             }
-            let actual = Limit::unpack(limits[bench.stratum(sx, sy).unwrap()]);
+            let stratum = bench.stratum(sx, sy).unwrap();
+            let actual = Limit::unpack(written["limit_out"][stratum]);
+            let memory = Memory::unpack(written["memory_out"][stratum]);
             let what = || format!("{size:?} ({sx}, {sy}), seed {seed}: {expected:?}");
-            assert_eq!(actual.sightings, expected.sightings, "{}", what());
+            let counts = |l: Limit| [l.asked, l.place, l.sightings, l.running];
+            assert_eq!(counts(actual), counts(expected), "{}", what());
+            let counts = |m: Memory| [m.place, m.sightings, m.running];
+            assert_eq!(counts(memory), counts(kept), "{}", what());
             assert_close(actual.ratio, expected.ratio, 1e-6 * expected.ratio, what);
             believed += usize::from(expected.ratio > 1.0);
-            doubted += usize::from(expected.sightings == 6);
-            let sums = |l: Limit| [l.level, l.implied, l.expected];
-            for (a, e) in sums(actual).into_iter().zip(sums(expected)) {
+            doubted += usize::from(expected.asked == 6);
+            let sums = |l: Limit, m: Memory| [l.level, l.expected, m.brightest, m.implied, m.around, m.expected];
+            for (a, e) in sums(actual, memory).into_iter().zip(sums(expected, kept)) {
                 assert_close(a, e, 6e-3 * e, what);
             }
         }

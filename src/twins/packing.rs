@@ -1,6 +1,6 @@
 //! The packed formats lose no more than documented.
 
-use super::codec::{pack_motion, unpack_motion};
+use super::codec::{pack_motion, pack_reflection, unpack_motion, unpack_reflection};
 use super::compute::compute;
 use super::plane::{V, cross, dot, length, scale, unit};
 use super::random::Random;
@@ -135,10 +135,10 @@ fn gloss_and_displacements_too() {
         &resolve::PASS,
         Features::default(),
         &numbers,
-        3 * numbers.len() / 2,
+        5 * numbers.len() / 2,
     );
     let mut worst = 0.0_f64;
-    for (case, found) in numbers.chunks_exact(2).zip(results.chunks_exact(3)) {
+    for (case, found) in numbers.chunks_exact(2).zip(results.chunks_exact(5)) {
         let [roughness, distance, part, depth] = case[0].map(f64::from);
         let back = found[0].map(f64::from);
         let what = || format!("{case:?} became {found:?}");
@@ -151,6 +151,21 @@ fn gloss_and_displacements_too() {
         let [shown, kept, dull, none] = found[1].map(f64::from);
         assert_eq!([shown, dull, none], [back[0], 0.0, 0.0], "{}: the guide's roughness", what());
         assert!((kept - depth).abs() < depth * 2.0_f64.powi(-15), "{}: depth", what());
+        let [x, y, far, shown] = found[3].map(f64::from);
+        let moved = unpack_reflection(pack_reflection([100.0 * roughness, 100.0 * distance, distance], 1));
+        assert!((x - moved[0]).abs() <= 1.001 / 256.0 && (y - moved[1]).abs() <= 1.001 / 256.0, "{}: motion", what());
+        // The last step, 2⁻³⁰, is the least number.
+        let allowed = (distance * (2.0_f64.powi(-9) + 2.0_f64.powi(-11))).max(2.0_f64.powi(-30));
+        assert!((far - distance.clamp(0.0, 8.5e9)).abs() <= allowed, "{}: distance of a reflection", what());
+        assert_eq!(shown, back[0], "{}: roughness of a reflection", what());
+        let evidence = found[4].map(f64::from);
+        let t = f64::from(case[1][0]);
+        let allowed = (t.abs() * (2.0_f64.powi(-10) + 2.0_f64.powi(-11))).max(2.0_f64.powi(-30));
+        assert!((evidence[0] - t).abs() <= allowed, "{}: t", what());
+        assert!(
+            (evidence[1] - distance.clamp(0.0, 8.5e9)).abs() <= (distance * 2.0_f64.powi(-11)).max(2.0_f64.powi(-30))
+        );
+        assert_eq!(evidence[2..], [1.0, f64::from(u8::from(case[0][0] > 0.5))], "{}: evidence", what());
         let d = [case[1][0], case[1][1], case[1][2]].map(f64::from);
         let largest = d.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         for (&found, exact) in found[2].iter().zip(d) {
