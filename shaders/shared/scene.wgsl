@@ -45,6 +45,10 @@ struct Scene {
 // Placements of the instances in the last frame, three rows of an affine map each.
 @group(1) @binding(2) var<storage, read> placements_previous: array<vec4<f32>>;
 #endif
+#ifdef DEFORMING
+// Corners of the triangles that change their shape, as they were in the last frame: nine numbers each.
+@group(1) @binding(4) var<storage, read> corners_previous: array<f32>;
+#endif
 // Per triangle: three octahedral normals (0: none), with NORMAL_MAPS three tangents (0: none), then three (u, v) per set of texture
 // coordinates, then three colours of four 16-bit numbers.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
@@ -296,3 +300,10 @@ fn instance_numbers(instance: u32) -> vec4<u32> {
 fn instance_error(instance: u32) -> vec3<f32> {
     return bitcast<vec3<f32>>(geometry_word(scene.instances + instance * 10u + 9u).xyz);
 }
+
+#ifdef DEFORMING
+// Number of the instance's first triangle among those of `corners_previous`, plus 1; 0 if its shape stays.
+fn instance_corners(instance: u32) -> u32 {
+    return geometry_word(scene.instances + instance * 10u + 9u).w;
+}
+#endif

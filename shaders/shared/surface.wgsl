@@ -1,6 +1,6 @@
 #define_import_path asvgf::surface
 
-#import asvgf::scene::{scene, geometry_word, attributes, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, instance_numbers, instance_error, NO_TRIANGLE}
+#import asvgf::scene::{scene, geometry_word, attributes, transform_point, transform_normal, object_to_world, world_to_object, previous_object_to_world, corners_previous, instance_corners, instance_numbers, instance_error, NO_TRIANGLE}
 #import asvgf::packing::unpack_octahedral
 
 // A triangle of the scene as the visibility buffer names it.
@@ -55,6 +55,26 @@ fn stored_triangle(row: u32) -> Triangle {
     );
 }
 
+#ifdef INSTANCED
+// The same in the previous frame.
+fn stored_triangle_before(v: Visible) -> Triangle {
+#ifdef DEFORMING
+    let corners = instance_corners(v.instance);
+    if corners != 0u {
+        let first = 9u * (corners - 1u + v.row - (instance_numbers(v.instance).w >> 1u));
+        return Triangle(corner_before(first), corner_before(first + 3u), corner_before(first + 6u));
+    }
+#endif
+    return stored_triangle(v.row);
+}
+#endif
+
+#ifdef DEFORMING
+fn corner_before(first: u32) -> vec3<f32> {
+    return vec3(corners_previous[first], corners_previous[first + 1u], corners_previous[first + 2u]);
+}
+#endif
+
 // World-space vertices in this frame, from the lookup table.
 fn triangle_now(v: Visible) -> Triangle {
     let t = stored_triangle(v.row);
@@ -69,7 +89,7 @@ fn triangle_now(v: Visible) -> Triangle {
 // World-space vertices in the previous frame.
 fn triangle_before(v: Visible) -> Triangle {
 #ifdef INSTANCED
-    let t = stored_triangle(v.row);
+    let t = stored_triangle_before(v);
     let m = previous_object_to_world(v.instance);
     return Triangle(transform_point(m, t.a), transform_point(m, t.b), transform_point(m, t.c));
 #else

@@ -195,7 +195,7 @@ mod tests {
     fn visible(time: f32) -> Arc<Visible> {
         let scene = builtin::scene("cornell", "all").unwrap();
         let pose = scene.pose(Some(0), time);
-        Arc::new(Visible::new(&pose, 0..pose.world.len()))
+        Arc::new(Visible::new(&pose, 0..pose.world.len(), std::iter::empty()))
     }
 
     fn traced(index: u32, x: f64, number: u64, time: f32, samples: u32) -> Identity {

@@ -23,6 +23,8 @@ macro_rules! features {
 features! {
     /// Two levels of trees, with placements of this and the last frame.
     Instanced,
+    /// Meshes that change their shape, with the corners of the last frame.
+    Deforming,
     /// Image look-ups.
     Textures,
     /// Images are fetched from a texture, because they are larger than a storage binding.

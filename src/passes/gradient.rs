@@ -15,6 +15,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(Outliers).unless(BlinnPhong),
         knows(Gloss).with(Outliers).unless(BlinnPhong),
         knows(Instanced).with(BlinnPhong),
+        knows(Deforming).with(BlinnPhong),
         knows(Textures).with(BlinnPhong),
         knows(FoldedImages).with(BlinnPhong),
         knows(ShadingNormals).with(BlinnPhong),

@@ -14,6 +14,7 @@ pub(crate) enum SceneBinding {
     Facets,
     FacetOwners,
     PlacementsBefore,
+    CornersBefore,
     AnalyticLights,
     AnalyticLightsBefore,
 }
@@ -33,6 +34,7 @@ impl SceneBinding {
             "facets" => Self::Facets,
             "facet_owners" => Self::FacetOwners,
             "placements_previous" => Self::PlacementsBefore,
+            "corners_previous" => Self::CornersBefore,
             "analytic_lights" => Self::AnalyticLights,
             "analytic_lights_previous" => Self::AnalyticLightsBefore,
             _ => return None,

@@ -6,6 +6,7 @@ use super::prelude::*;
 #[cfg(feature = "path-tracer")]
 pub(super) const GEOMETRY: &[Known] = &[
     knows(Instanced),
+    knows(Deforming),
     knows(Textures),
     knows(FoldedImages),
     knows(ShadingNormals),

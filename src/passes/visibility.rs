@@ -9,6 +9,7 @@ pub(crate) static PASS: Pass = Pass {
     grid: Pixels,
     features: &[&[
         knows(Instanced),
+        knows(Deforming),
         knows(Textures).with(AlphaMask),
         knows(FoldedImages).with(AlphaMask),
         knows(ShadingNormals),

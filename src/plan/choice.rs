@@ -29,6 +29,11 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
             contents.instanced,
             ["a mesh moves or repeats", "nothing moves or repeats: one tree, no placements"],
         ),
+        (
+            Deforming,
+            contents.deforming,
+            ["a mesh changes its shape", "no mesh changes its shape: the last frame has the same vertices"],
+        ),
         (Objects, contents.instanced, OBJECTS),
         (
             Textures,

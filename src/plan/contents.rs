@@ -5,6 +5,8 @@
 pub struct SceneContents {
     /// Meshes move or repeat: two levels of trees.
     pub instanced: bool,
+    /// Meshes change their shape: skins and morph targets.
+    pub deforming: bool,
     /// Materials have textures.
     pub textures: bool,
     /// Images together are larger than a storage binding.

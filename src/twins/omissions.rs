@@ -11,6 +11,7 @@ use wgpu::naga::Module;
 /// A scene with everything except few triangles.
 const ALL: SceneContents = SceneContents {
     instanced: true,
+    deforming: true,
     textures: true,
     folded_images: false,
     shading_normals: true,
@@ -76,7 +77,8 @@ fn assert_leaner(shaders: &mut Shaders, [with, without]: [&Step; 2], lost: &[&st
 fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     let everything = plan(&ALL, FilterSettings::default(), Changes::ANY);
-    let moving = &[
+    let shapes = ["corner_before", "corners_previous", "instance_corners"];
+    let moving = [
         "instance_error",
         "instance_grid",
         "instance_numbers",
@@ -85,12 +87,15 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "pack_displacement",
         "placements_previous",
         "previous_object_to_world",
+        "stored_triangle_before",
         "transform_normal",
         "transform_point",
         "transform_vector",
         "triangle_before",
         "world_to_object",
-    ][..];
+    ];
+    let mut moving = [&shapes[..], &moving[..]].concat();
+    moving.sort_unstable();
     let images = &["exists", "sample_texture", "srgb_to_linear", "texel", "texture_coordinates", "wrap"][..];
     let blending = [
         "belongs_to_neighbour",
@@ -181,8 +186,9 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     ]
     .concat();
     shine.sort_unstable();
-    let cases: [(SceneContents, &[&str]); 13] = [
-        (SceneContents { instanced: false, ..ALL }, moving),
+    let cases: [(SceneContents, &[&str]); 14] = [
+        (SceneContents { instanced: false, deforming: false, ..ALL }, &moving),
+        (SceneContents { deforming: false, ..ALL }, &shapes),
         (SceneContents { textures: false, normal_maps: false, ..ALL }, &images),
         (SceneContents { shading_normals: false, normal_maps: false, ..ALL }, &normals),
         (SceneContents { normal_maps: false, ..ALL }, &maps),

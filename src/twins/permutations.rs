@@ -5,7 +5,7 @@ use crate::gpu::compose::{Permutation, Shaders};
 use crate::gpu::kernel::Kernel;
 use crate::gpu::resource::Resource;
 use crate::plan::{Changes, Feature, Features, HostInputs, PairInputs, Plan, SceneContents, Step, Traversal};
-use crate::scene::{Environment, GpuScene, Scene, builtin};
+use crate::scene::{Environment, GpuScene, IDENTITY, Influence, Node, Scene, Skin, builtin};
 use crate::settings::{Blend, FilterSettings, Gradient, Mode, Sampling, Settings, Stops, TracerSettings, Variance};
 use crate::{Error, View};
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,7 +25,7 @@ fn noop_device() -> (Device, Queue) {
 
 /// All combinations of contents. The test checks some 150 shaders a second, and all in a quarter of a minute.
 fn contents() -> Vec<SceneContents> {
-    (0_u32..1 << 15)
+    (0_u32..1 << 16)
         // Only images may be folded. Folding changes one function, so it is combined with a part of the rest.
         .filter(|bits| bits >> 12 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1101_0110_0000 == 0)
         // There is no alpha mask if each triangle is tested.
@@ -38,6 +38,8 @@ fn contents() -> Vec<SceneContents> {
         .filter(|bits| bits >> 13 & 1 == 0 || bits >> 1 & 3 == 3 && bits >> 5 & 15 == 15)
         // Glass shines; images and colours are independent of it.
         .filter(|bits| bits >> 14 & 1 == 0 || bits >> 1 & 7 == 6 && bits >> 9 & 0b1_1011 == 0)
+        // A mesh that changes its shape is an instance. It changes one function, so it is combined with a part of the rest.
+        .filter(|bits| bits >> 15 & 1 == 0 || bits & 1 == 1 && bits >> 5 & 15 == 15 && bits >> 10 & 31 == 0)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
             SceneContents {
@@ -57,6 +59,7 @@ fn contents() -> Vec<SceneContents> {
                 normal_maps: bit(13),
                 transmission: bit(14),
                 clear_glass: bit(14) && bit(5),
+                deforming: bit(15),
                 ..Default::default()
             }
         })
@@ -325,7 +328,14 @@ fn check(device: &Device, scene: &GpuScene, shaders: &mut Shaders, permutation: 
 fn every_reachable_permutation_compiles_and_binds_what_its_step_names() {
     let (device, queue) = noop_device();
     let sky = Some(Environment::uniform([1.0; 3]));
-    let scene = Scene { environment: sky, ..builtin::scene("cornell", "static").unwrap() };
+    let mut scene = Scene { environment: sky, ..builtin::scene("cornell", "static").unwrap() };
+    // A node that moves is the joint of a skin.
+    let joint = scene.nodes.len();
+    scene.nodes.push(Node { movable: true, ..Default::default() });
+    scene.skins.push(Skin { joints: vec![joint], inverse_bind: vec![IDENTITY] });
+    scene.nodes[0].skin = Some(0);
+    let mesh = &mut scene.meshes[scene.nodes[0].meshes[0]];
+    mesh.influences = vec![Influence { joint: 0, weight: 1.0 }; mesh.positions.len()];
     let scene = GpuScene::new(&device, &queue, &scene).unwrap();
     let mut shaders = Shaders::new().unwrap_or_else(|e| panic!("{e}"));
     let steps = steps();

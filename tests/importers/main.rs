@@ -8,6 +8,7 @@ mod shared;
 mod animation;
 mod documentation;
 mod environment;
+mod gltf_deformation;
 mod gltf_errors;
 mod gltf_geometry;
 mod gltf_materials;

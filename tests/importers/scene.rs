@@ -1,8 +1,8 @@
 //! Checks and measures of scenes that are made in code.
 
 use asvgf::scene::{
-    Alpha, Animation, Channel, Environment, Image, Interpolation, Light, LightKind, Material, Mesh, Node, Perspective,
-    Scene, Target, Texture, Transform,
+    Alpha, Animation, Channel, Environment, Image, Influence, Interpolation, Light, LightKind, Material, Mesh,
+    MorphTarget, Node, Perspective, Scene, Skin, Target, Texture, Transform,
 };
 
 use crate::common::assert_close;
@@ -21,6 +21,8 @@ fn whole() -> Scene {
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             normals: vec![[0.0, 0.0, 1.0]; 3],
             uvs: [vec![[0.0; 2]; 3], vec![]],
+            targets: vec![MorphTarget { vertices: vec![2], positions: vec![[1.0, 0.0, 0.0]], ..Default::default() }],
+            influences: vec![Influence { joint: 0, weight: 1.0 }; 6],
             triangles: vec![[0, 1, 2]],
             ..Mesh::default()
         }],
@@ -28,9 +30,10 @@ fn whole() -> Scene {
         images: vec![Image { width: 2, height: 1, texels: vec![[0; 4]; 2], ..Image::default() }],
         nodes: vec![
             Node { meshes: vec![0], light: Some(0), camera: Some(0), ..Node::default() },
-            Node { parent: Some(0), meshes: vec![0], ..Node::default() },
+            Node { parent: Some(0), meshes: vec![0], skin: Some(0), weights: vec![0.5], ..Node::default() },
             Node { transform: Transform::Matrix(asvgf::scene::IDENTITY), ..Node::default() },
         ],
+        skins: vec![Skin { joints: vec![2], inverse_bind: vec![asvgf::scene::IDENTITY] }],
         lights: vec![Light {
             kind: LightKind::Spot { inner: 0.1, outer: 0.2 },
             intensity: [1.0; 3],
@@ -56,6 +59,7 @@ fn broken(change: impl FnOnce(&mut Scene), element: &str, reason: &str) {
     scene.surface_area(&pose);
     scene.triangle_count();
     scene.animated_nodes();
+    scene.shape(&pose, 1, 0);
     scene.camera_view(&pose, 0);
 }
 
@@ -91,6 +95,17 @@ fn every_rule_is_checked() {
     broken(|scene| scene.nodes[0].transform = rotated([0.0; 4]), "nodes[0].transform", "unit quaternion");
     broken(|scene| scene.nodes[0].transform = rotated([f32::NAN; 4]), "nodes[0].transform", "unit quaternion");
     broken(|scene| scene.nodes[2].transform = Transform::Matrix([[1.0; 4]; 4]), "nodes[2].transform", "last row");
+    broken(|scene| scene.nodes[1].skin = Some(1), "nodes[1].skin", "index 1");
+    broken(|scene| scene.nodes[1].weights[0] = f32::NAN, "nodes[1].weights", "not finite");
+    broken(|scene| scene.meshes[0].influences[5].joint = 1, "meshes[0].influences[5].joint", "index 1");
+    broken(|scene| scene.meshes[0].influences[5].weight = f32::NAN, "meshes[0].influences[5]", "not finite");
+    broken(|scene| scene.meshes[0].influences.truncate(5), "meshes[0].influences", "5 entries for 3 vertices");
+    broken(|scene| scene.meshes[0].targets[0].vertices[0] = 3, "meshes[0].targets[0].vertices[0]", "index 3");
+    broken(|scene| scene.meshes[0].targets[0].normals = vec![[0.0; 3]; 2], "targets[0].normals", "2 entries for 1");
+    broken(|scene| scene.meshes[0].targets[0].positions[0][1] = f32::NAN, "targets[0].positions[0]", "not finite");
+    broken(|scene| scene.skins[0].joints[0] = 3, "skins[0].joints[0]", "index 3");
+    broken(|scene| scene.skins[0].joints.clear(), "skins[0].inverse_bind", "1 matrices for 0 joints");
+    broken(|scene| scene.skins[0].inverse_bind[0][3][3] = 0.5, "skins[0].inverse_bind[0]", "last row");
     broken(|scene| scene.lights[0].intensity[1] = f32::NAN, "lights[0].intensity", "NaN");
     broken(|scene| scene.lights[0].range = 0.0, "lights[0].range", "above 0");
     let cone = |inner, outer| move |scene: &mut Scene| scene.lights[0].kind = LightKind::Spot { inner, outer };
@@ -104,6 +119,7 @@ fn every_rule_is_checked() {
     broken(channel(|channel| channel.target = Target::Scale(9)), element, "index 9");
     broken(channel(|channel| channel.target = Target::Scale(2)), element, "matrix");
     broken(channel(|channel| channel.target = Target::Emission(1)), element, "index 1");
+    broken(channel(|channel| channel.target = Target::Weight { node: 1, target: 1 }), element, "index 1");
     broken(channel(|channel| channel.target = Target::Intensity(1)), element, "index 1");
     broken(channel(|channel| channel.times.clear()), element, "no key");
     broken(channel(|channel| channel.times[1] = 0.0), element, "do not increase");
@@ -127,6 +143,8 @@ fn measures_are_those_of_the_placed_triangles() {
         Transform::Trs { translation: [0.0, 0.0, 1.0], rotation: [0.0, 0.0, 0.0, 1.0], scale: [2.0; 3] };
     scene.nodes[1].transform =
         Transform::Trs { translation: [0.0, 0.0, 1.0], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0, -1.0, 1.0] };
+    scene.nodes[1].weights.clear();
+    scene.nodes[1].skin = None;
     let pose = scene.pose(None, 0.0);
     assert_eq!(scene.triangle_count(), 2);
     assert!((scene.surface_area(&pose) - 4.0).abs() < 1e-9);

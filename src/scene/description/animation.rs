@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec4};
 
-/// Curves over time that move nodes and dim lights together.
+/// Curves over time that move nodes, change shapes and dim lights together.
 #[derive(Clone, Debug, Default)]
 pub struct Animation {
     /// Name by which it is chosen; may be empty.
@@ -20,7 +20,7 @@ pub struct Channel {
     pub interpolation: Interpolation,
     /// Key times in seconds, increasing, at least one.
     pub times: Vec<f32>,
-    /// One value per key: xyz for translation and scale, a quaternion for rotation, x for factors.
+    /// One value per key: xyz for translation and scale, a quaternion for rotation, x for weights and factors.
     /// [`Interpolation::CubicSpline`] has three per key: in-tangent, value, out-tangent.
     pub values: Vec<[f32; 4]>,
 }
@@ -42,6 +42,13 @@ pub enum Target {
     Rotation(usize),
     /// Scale of a node.
     Scale(usize),
+    /// Weight of a morph target in the meshes of a node.
+    Weight {
+        /// The node.
+        node: usize,
+        /// Index into [`Mesh::targets`](super::Mesh::targets).
+        target: usize,
+    },
     /// Factor ≥ 0 on a material's emission.
     Emission(usize),
     /// Factor ≥ 0 on a light's intensity.
@@ -73,7 +80,7 @@ impl Target {
     pub(crate) fn node(self) -> Option<usize> {
         match self {
             Self::Translation(node) | Self::Rotation(node) | Self::Scale(node) => Some(node),
-            Self::Emission(_) | Self::Intensity(_) => None,
+            Self::Weight { .. } | Self::Emission(_) | Self::Intensity(_) => None,
         }
     }
 }

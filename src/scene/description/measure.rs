@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3};
 
-use crate::scene::description::{Mesh, Pose, Scene};
+use crate::scene::description::{Pose, Scene};
 
 impl Scene {
     /// Number of triangles that are drawn. A mesh counts once for each node that places it.
@@ -34,11 +34,16 @@ impl Scene {
 
     /// Calls `visit` with the world-space corners of every placed triangle. Indices out of range are skipped.
     fn for_each_triangle(&self, pose: &Pose, mut visit: impl FnMut([DVec3; 3])) {
-        for (node, world) in self.nodes.iter().zip(&pose.world) {
-            // Sums of many small areas and products of large coordinates need double precision.
-            let world = DMat4::from_cols_array_2d(world);
-            for mesh in node.meshes.iter().filter_map(|&mesh| self.meshes.get(mesh)) {
-                let corner = |index: u32| Some(world.transform_point3(position(mesh, index)?));
+        for (number, (node, world)) in self.nodes.iter().zip(&pose.world).enumerate() {
+            for &index in &node.meshes {
+                let (Some(mesh), Some(shape)) = (self.meshes.get(index), self.shape(pose, number, index)) else {
+                    continue;
+                };
+                // Sums of many small areas and products of large coordinates need double precision.
+                let in_world = node.skin.is_some() && mesh.is_skinned();
+                let world = if in_world { DMat4::IDENTITY } else { DMat4::from_cols_array_2d(world) };
+                let position = |vertex: u32| shape.positions.get(vertex as usize).copied().map(DVec3::from);
+                let corner = |vertex: u32| Some(world.transform_point3(position(vertex)?));
                 for &[a, b, c] in &mesh.triangles {
                     if let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) {
                         visit([a, b, c]);
@@ -47,8 +52,4 @@ impl Scene {
             }
         }
     }
-}
-
-fn position(mesh: &Mesh, index: u32) -> Option<DVec3> {
-    mesh.positions.get(index as usize).map(|&[x, y, z]| DVec3::new(x.into(), y.into(), z.into()))
 }

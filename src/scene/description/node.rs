@@ -20,11 +20,17 @@ pub struct Node {
     pub transform: Transform,
     /// Meshes placed here (indices into [`Scene::meshes`](super::Scene::meshes)).
     pub meshes: Vec<usize>,
+    /// Joints that place those meshes which have [`influences`](super::Mesh::influences), instead of this node (index into
+    /// [`Scene::skins`](super::Scene::skins)).
+    pub skin: Option<usize>,
+    /// Weights of the morph targets of the meshes at rest. Missing ones are 0.
+    pub weights: Vec<f32>,
     /// Light placed here, shining along −Z (index into [`Scene::lights`](super::Scene::lights)).
     pub light: Option<usize>,
     /// Camera placed here, looking along −Z with +Y up (index into [`Scene::cameras`](super::Scene::cameras)).
     pub camera: Option<usize>,
-    /// True if the host moves this node although no animation does. Such a node is kept out of the static geometry.
+    /// True if the host moves this node, or changes its weights, although no animation does. Such a node is kept out of the static
+    /// geometry.
     pub movable: bool,
 }
 

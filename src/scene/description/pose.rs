@@ -3,13 +3,15 @@
 use glam::{DMat4, DQuat, DVec3, Mat4};
 
 use super::animation::unit;
-use super::{Animation, Matrix, Scene, Target, Transform, WorldMatrix};
+use super::{Animation, Matrix, Node, Scene, Target, Transform, WorldMatrix};
 
 /// The moving parts of a [`Scene`] at one moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
     /// World matrix of each node, in double precision so that a small offset survives beside a large one.
     pub world: Vec<WorldMatrix>,
+    /// Weights of the morph targets of each node's meshes, one for each target of the mesh that has most.
+    pub weights: Vec<Vec<f32>>,
     /// Factor on the emission of each material, per colour channel.
     pub emission: Vec<[f32; 3]>,
     /// Factor on the intensity of each light, per colour channel.
@@ -23,6 +25,7 @@ impl Scene {
     /// `None`, an index out of range, or a time that is not finite gives the rest pose (factors of 1).
     pub fn pose(&self, animation: Option<usize>, time: f32) -> Pose {
         let mut locals: Vec<Local> = self.nodes.iter().map(|node| Local::new(node.transform)).collect();
+        let mut weights: Vec<Vec<f32>> = self.nodes.iter().map(|node| self.resting_weights(node)).collect();
         let mut emission = vec![[1.0; 3]; self.materials.len()];
         let mut intensity = vec![[1.0; 3]; self.lights.len()];
 
@@ -34,6 +37,11 @@ impl Scene {
                     Target::Translation(node) => set(&mut locals, node, |local| local.translation = value.truncate()),
                     Target::Rotation(node) => set(&mut locals, node, |local| local.rotation = unit(value)),
                     Target::Scale(node) => set(&mut locals, node, |local| local.scale = value.truncate()),
+                    Target::Weight { node, target } => set(&mut weights, node, |weights| {
+                        set(weights, target, |weight| {
+                            *weight = value.x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
+                        });
+                    }),
                     Target::Emission(material) => {
                         set(&mut emission, material, |factor| *factor = [value.x.max(0.0) as f32; 3])
                     }
@@ -51,7 +59,20 @@ impl Scene {
             let parent = node.parent.and_then(|parent| world.get(parent)).copied().unwrap_or(DMat4::IDENTITY);
             world.push(parent * local.matrix());
         }
-        Pose { world: world.iter().map(DMat4::to_cols_array_2d).collect(), emission, intensity }
+        Pose { world: world.iter().map(DMat4::to_cols_array_2d).collect(), weights, emission, intensity }
+    }
+
+    /// The weights of a node at rest, one for each target of its meshes.
+    fn resting_weights(&self, node: &Node) -> Vec<f32> {
+        let mut weights = node.weights.clone();
+        weights.resize(self.target_count(node), 0.0);
+        weights
+    }
+
+    /// Number of morph targets of the mesh of a node that has most.
+    pub(crate) fn target_count(&self, node: &Node) -> usize {
+        let meshes = node.meshes.iter().filter_map(|&mesh| self.meshes.get(mesh));
+        meshes.map(|mesh| mesh.targets.len()).max().unwrap_or(0)
     }
 
     /// Time of the last key of an animation in seconds, after which [`Scene::pose`] repeats. 0 if nothing moves: for `None`, for an
@@ -63,6 +84,18 @@ impl Scene {
     /// Index of the first animation of that name.
     pub fn find_animation(&self, name: &str) -> Option<usize> {
         self.animations.iter().position(|animation| animation.name == name)
+    }
+
+    /// True for each node whose weights may ever change: a [`movable`](crate::scene::Node::movable) one, and one with a weight that a
+    /// channel of any animation changes.
+    pub(crate) fn morphing_nodes(&self) -> Vec<bool> {
+        let mut morphs: Vec<bool> = self.nodes.iter().map(|node| node.movable).collect();
+        for channel in self.animations.iter().flat_map(|animation| &animation.channels) {
+            if let Target::Weight { node, .. } = channel.target {
+                set(&mut morphs, node, |morphs| *morphs = true);
+            }
+        }
+        morphs
     }
 
     /// True for each node that may ever move: a [`movable`](crate::scene::Node::movable) one, one that a channel of any animation
@@ -130,7 +163,7 @@ fn set<T>(items: &mut [T], index: usize, change: impl FnOnce(&mut T)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::description::{Channel, Interpolation, Node, Perspective};
+    use crate::scene::description::{Channel, Interpolation, Perspective};
 
     const FAR: f64 = 524_288.0;
 

@@ -1,6 +1,6 @@
 //! The whole scene.
 
-use super::{Animation, Environment, Image, Light, Material, Mesh, Node, Perspective};
+use super::{Animation, Environment, Image, Light, Material, Mesh, Node, Perspective, Skin};
 
 /// Everything that the path tracer draws: geometry stored once per [`Mesh`], placed by [`Node`]s.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +13,8 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// The hierarchy that places meshes, lights and cameras. A parent comes before its children.
     pub nodes: Vec<Node>,
+    /// Joints that nodes refer to by index.
+    pub skins: Vec<Skin>,
     /// Lights without area.
     pub lights: Vec<Light>,
     /// Perspective cameras.

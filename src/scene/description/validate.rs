@@ -4,8 +4,8 @@ use std::collections::HashSet;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use crate::scene::description::{
-    Alpha, Animation, Channel, Environment, Image, Interior, Interpolation, Light, LightKind, Material, Mesh, Node,
-    Scene, SceneError, Target, Texture, Transform,
+    Alpha, Animation, Channel, Environment, Image, Influence, Interior, Interpolation, Light, LightKind, Material,
+    Matrix, Mesh, Node, Scene, SceneError, Skin, Target, Texture, Transform,
 };
 
 /// The first broken rule: element and reason.
@@ -24,6 +24,7 @@ impl Scene {
 
     fn check(&self) -> Result<(), Broken> {
         each(&self.meshes, "meshes", |mesh, element| self.check_mesh(mesh, element))?;
+        each(&self.skins, "skins", |skin, element| self.check_skin(skin, element))?;
         each(&self.materials, "materials", |material, element| self.check_material(material, element))?;
         each(&self.images, "images", check_image)?;
         for (index, node) in self.nodes.iter().enumerate() {
@@ -67,6 +68,47 @@ impl Scene {
             for &corner in corners {
                 index(corner as usize, vertices, || format!("{element}.triangles[{triangle}]"))?;
             }
+        }
+        self.check_deformation(mesh, element)
+    }
+
+    fn check_deformation(&self, mesh: &Mesh, element: &str) -> Result<(), Broken> {
+        let vertices = mesh.positions.len();
+        let influences = mesh.influences.len();
+        rule(
+            influences == 0 || vertices > 0 && influences.is_multiple_of(vertices),
+            || format!("{element}.influences"),
+            || format!("{influences} entries for {vertices} vertices (as many for each)"),
+        )?;
+        let weights = |influence: &Influence| [influence.weight];
+        all_finite(&mesh.influences.iter().map(weights).collect::<Vec<_>>(), || format!("{element}.influences"))?;
+        each(&mesh.targets, &format!("{element}.targets"), |target, element| {
+            let moved = target.vertices.len();
+            let lists =
+                [("positions", &target.positions), ("normals", &target.normals), ("tangents", &target.tangents)];
+            for (name, list) in lists {
+                rule(
+                    list.is_empty() || list.len() == moved,
+                    || format!("{element}.{name}"),
+                    || format!("{} entries for {moved} vertices (as many, or none)", list.len()),
+                )?;
+                all_finite(list, || format!("{element}.{name}"))?;
+            }
+            let mut vertex = target.vertices.iter().enumerate();
+            vertex.try_for_each(|(at, &v)| index(v as usize, vertices, || format!("{element}.vertices[{at}]")))
+        })
+    }
+
+    fn check_skin(&self, skin: &Skin, element: &str) -> Result<(), Broken> {
+        let (joints, inverses) = (skin.joints.len(), skin.inverse_bind.len());
+        rule(
+            joints == inverses && joints > 0,
+            || format!("{element}.inverse_bind"),
+            || format!("{inverses} matrices for {joints} joints (as many, and at least one)"),
+        )?;
+        for (joint, (&node, matrix)) in skin.joints.iter().zip(&skin.inverse_bind).enumerate() {
+            index(node, self.nodes.len(), || format!("{element}.joints[{joint}]"))?;
+            check_affine(matrix, || format!("{element}.inverse_bind[{joint}]"))?;
         }
         Ok(())
     }
@@ -121,14 +163,21 @@ impl Scene {
                 all_finite(&[*translation, *scale], || format!("{element}.transform"))?;
                 check_quaternion(rotation, || format!("{element}.transform"))?;
             }
-            Transform::Matrix(matrix) => {
-                all_finite(matrix, || format!("{element}.transform"))?;
-                let affine = matrix.map(|column| column[3]) == [0.0, 0.0, 0.0, 1.0];
-                rule(affine, || format!("{element}.transform"), || "the last row is not 0, 0, 0, 1".into())?;
-            }
+            Transform::Matrix(matrix) => check_affine(matrix, || format!("{element}.transform"))?,
         }
         for &mesh in &node.meshes {
             index(mesh, self.meshes.len(), || format!("{element}.meshes"))?;
+        }
+        all_finite(&[&node.weights], || format!("{element}.weights"))?;
+        if let Some(skin) = node.skin {
+            index(skin, self.skins.len(), || format!("{element}.skin"))?;
+            let joints = self.skins[skin].joints.len();
+            for &mesh in &node.meshes {
+                let influences = self.meshes[mesh].influences.iter().enumerate();
+                for (at, influence) in influences {
+                    index(influence.joint as usize, joints, || format!("meshes[{mesh}].influences[{at}].joint"))?;
+                }
+            }
         }
         if let Some(light) = node.light {
             index(light, self.lights.len(), || format!("{element}.light"))?;
@@ -154,6 +203,10 @@ impl Scene {
         match target {
             Target::Emission(material) => index(material, self.materials.len(), element),
             Target::Intensity(light) => index(light, self.lights.len(), element),
+            Target::Weight { node, target } => {
+                index(node, self.nodes.len(), element)?;
+                index(target, self.target_count(&self.nodes[node]), element)
+            }
             Target::Translation(node) | Target::Rotation(node) | Target::Scale(node) => {
                 index(node, self.nodes.len(), element)?;
                 let moves = self.nodes.get(node).is_some_and(|node| matches!(node.transform, Transform::Trs { .. }));
@@ -208,6 +261,12 @@ fn check_channel(channel: &Channel, element: &str) -> Result<(), Broken> {
         || format!("{values} values for {keys} keys, where {expected} belong"),
     )?;
     all_finite(&channel.values, || format!("{element}.values"))
+}
+
+fn check_affine(matrix: &Matrix, element: impl Fn() -> String) -> Result<(), Broken> {
+    all_finite(matrix, &element)?;
+    let affine = matrix.map(|column| column[3]) == [0.0, 0.0, 0.0, 1.0];
+    rule(affine, element, || "the last row is not 0, 0, 0, 1".into())
 }
 
 fn check_quaternion(rotation: &[f32; 4], element: impl FnOnce() -> String) -> Result<(), Broken> {

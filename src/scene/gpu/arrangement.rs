@@ -1,5 +1,6 @@
 //! The parts of a scene on the GPU that follow its pose, as plain data.
 
+use super::geometry::deforming::{Deforming, Reshaped};
 use super::geometry::facets::{self, Facet};
 use super::geometry::instances::{self, Instance};
 use super::header::Header;
@@ -22,6 +23,8 @@ pub(crate) struct Arrangement {
     /// The constants without the grid, which [`Arrangement::top_level`] adds.
     pub header: Header,
     pub instances: Vec<Instance>,
+    /// Meshes whose shape follows the pose.
+    pub deforming: Vec<Deforming>,
     /// Most levels of the top level that the traversal's stack has room for.
     pub deepest: u32,
     pub lights: Lights,
@@ -29,8 +32,8 @@ pub(crate) struct Arrangement {
     pub images: Vec<Place>,
     /// Corners of each row, if the scene has so few triangles that each is tested.
     pub few: Option<Vec<[[f32; 3]; 3]>>,
-    /// Lengths of the lists of a pose.
-    pub lengths: [usize; 3],
+    /// Lengths of the lists of a pose, and of the weights of each node.
+    pub lengths: Lengths,
 }
 
 /// The top level of the trees and the instances' records in a pose.
@@ -48,9 +51,13 @@ pub(crate) struct Facets {
     pub owners: Vec<[u32; 4]>,
 }
 
+/// Lengths of the lists of a pose, and of the weights of each node.
+type Lengths = ([usize; 3], Vec<usize>);
+
 /// Lengths of the lists of a pose.
-pub(crate) fn lengths(pose: &Pose) -> [usize; 3] {
-    [pose.world.len(), pose.emission.len(), pose.intensity.len()]
+pub(crate) fn lengths(pose: &Pose) -> Lengths {
+    let lists = [pose.world.len(), pose.emission.len(), pose.intensity.len()];
+    (lists, pose.weights.iter().map(Vec::len).collect())
 }
 
 impl Arrangement {
@@ -66,6 +73,9 @@ impl Arrangement {
         if let Some(i) = pose.world.iter().position(|m| !m.iter().flatten().all(finite)) {
             return wrong(format!("world[{i}]"), "is not finite");
         }
+        if let Some(i) = pose.weights.iter().position(|weights| !weights.iter().all(|w| w.is_finite())) {
+            return wrong(format!("weights[{i}]"), "is not finite");
+        }
         if pose.emission.iter().chain(&pose.intensity).flatten().any(|f| !(f.is_finite() && *f >= 0.0)) {
             return wrong("emission or intensity".into(), "is negative or not finite");
         }
@@ -74,7 +84,31 @@ impl Arrangement {
 
     /// The part of a pose that paths see: nodes with triangles or lights.
     pub fn visible(&self, pose: &Pose) -> Visible {
-        Visible::new(pose, self.instances.iter().filter_map(|i| i.node).chain(self.lights.nodes()))
+        let nodes = self.instances.iter().filter_map(|i| i.node).chain(self.lights.nodes());
+        Visible::new(pose, nodes, self.deforming.iter().map(|deforming| &deforming.source))
+    }
+
+    /// Gives meshes the shapes of a pose. Returns those that changed.
+    pub fn reshape(&mut self, pose: &Pose) -> Vec<Reshaped> {
+        let mut changed = Vec::new();
+        for deforming in &mut self.deforming {
+            let Some(reshaped) = deforming.follow(pose) else { continue };
+            let instance = &mut self.instances[deforming.instance];
+            (instance.bounds, instance.grid) = (deforming.tree.bounds, deforming.tree.grid);
+            self.lights.reshape(deforming.instance, deforming.emitters());
+            if let Some(few) = &mut self.few {
+                let rows = &mut few[deforming.first_row as usize..];
+                rows.iter_mut().zip(&deforming.corners).for_each(|(row, c)| *row = c.map(|p| p.to_array()));
+            }
+            changed.push(reshaped);
+        }
+        changed
+    }
+
+    /// Corners of all triangles that change their shape.
+    pub fn corners(&self) -> Vec<[[f32; 3]; 3]> {
+        let corners = self.deforming.iter().flat_map(|deforming| &deforming.corners);
+        corners.map(|triangle| triangle.map(|p| p.to_array())).collect()
     }
 
     pub fn top_level(&self, pose: &Pose) -> TopLevel {

@@ -3,6 +3,8 @@
 use super::arrangement::{Arrangement, Facets, lengths};
 use super::contents::contents;
 use super::geometry::centre;
+use super::geometry::deforming::Deforming;
+use super::geometry::drawn::{Drawn, drawn};
 use super::geometry::facets;
 use super::geometry::groups::{Group, groups};
 use super::geometry::instances::Instance;
@@ -58,11 +60,12 @@ impl<'a> Assembly<'a> {
         let centre = bounds.map_or(DVec3::ZERO, centre::centre);
         let radius = bounds.map_or(1.0, |[low, high]| low.distance(high) / 2.0);
 
-        let groups = groups(scene, &pose.world, centre);
+        let drawn = drawn(scene, &pose);
+        let groups = groups(&drawn, &pose.world, &scene.animated_nodes(), centre);
         let sections = Sections::of(&groups);
-        let mut geometry = Geometry::new(scene, sections.first_node());
+        let mut geometry = Geometry::new(scene, &drawn, sections.first_node());
         let mut lights = LightList::default();
-        let instances = instances(scene, &pose, centre, groups, (&mut geometry, &mut lights));
+        let (instances, deforming) = instances((scene, &drawn), &pose, centre, groups, (&mut geometry, &mut lights));
         let emitters = lights.len();
         lights.add_punctual(scene, radius);
         let punctual = lights.len() - emitters;
@@ -88,6 +91,7 @@ impl<'a> Assembly<'a> {
             instanced: sections.instanced,
             header,
             instances,
+            deforming,
             deepest: tree::DEEPEST,
             lights,
             materials: scene.materials.clone(),
@@ -105,6 +109,7 @@ impl<'a> Assembly<'a> {
         capacity.check_bytes("normals and texture coordinates", size_of_val(attributes.as_slice()))?;
         let contents = SceneContents {
             instanced: sections.instanced,
+            deforming: !arrangement.deforming.is_empty(),
             emitters: used.emitters && emitters > 0,
             punctual_lights: punctual > 0,
             folded_images: are_folded(&scene.images, capacity),
@@ -132,18 +137,19 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// Builds the tree of each group and places it once for each of its nodes. Collects the triangles that emit.
+/// Builds the tree of each group and places it once for each of its nodes. Collects the triangles that emit, and the meshes that change
+/// their shape.
 fn instances(
-    scene: &Scene,
+    (scene, drawn): (&Scene, &[Drawn<'_>]),
     pose: &Pose,
     centre: DVec3,
     groups: Vec<Group>,
     (geometry, lights): (&mut Geometry, &mut LightList),
-) -> Vec<Instance> {
-    let mut instances = Vec::new();
-    let mut first_id = 0;
+) -> (Vec<Instance>, Vec<Deforming>) {
+    let (mut instances, mut deforming) = (Vec::new(), Vec::new());
+    let (mut first_id, mut first_corner) = (0, 0);
     for group in groups {
-        let built = geometry.add(scene, &group);
+        let built = geometry.add(scene, drawn, &group);
         let row_count = group.faces.len() as u32;
         for node in group.placements() {
             let instance = Instance {
@@ -156,18 +162,23 @@ fn instances(
                 first_light: lights.len() as u32,
                 bounds: built.bounds,
                 grid: built.grid,
+                first_corner: group.deforms.map(|_| first_corner),
             };
             let placement = instance.placement(pose, centre);
             for (row, face) in &built.emitters {
-                let number = scene.meshes[face.mesh].material;
+                let number = drawn[face.mesh].posed().mesh.material;
                 let material = (number, &scene.materials[number]);
                 lights.add_emitter((instances.len(), *row), face, material, placement);
             }
             instances.push(instance);
             first_id += row_count;
         }
+        if let Some(mesh) = Deforming::of(drawn, geometry, &group, built, instances.len() - 1) {
+            deforming.push(mesh);
+            first_corner += row_count;
+        }
     }
-    instances
+    (instances, deforming)
 }
 
 /// Slots of the stack beside those of the levels: one for the bottom, one for the mark between the two levels of trees, and one that

@@ -32,7 +32,8 @@ use wgpu::{BindingResource, CommandEncoder, Device, Queue};
 /// A [`Scene`] on the GPU: its geometry and trees, and placements, materials and lights in the current pose.
 ///
 /// Each mesh is stored once. Static meshes share one tree in world space. Meshes that move or repeat have trees of their own under a
-/// second level, which is rebuilt when something moves. Coordinates are relative to a centre near the scene's middle, so that a scene
+/// second level, which is rebuilt when something moves. A mesh that changes its shape is stored once for each node that draws it, and
+/// its tree is fitted to each shape. Coordinates are relative to a centre near the scene's middle, so that a scene
 /// far from the origin looks as it does near the origin.
 #[derive(Debug)]
 pub struct GpuScene {
@@ -58,7 +59,8 @@ impl GpuScene {
         let id = NEXT.fetch_add(1, Ordering::Relaxed);
         let Assembly { contents, stack, triangles, pose, arrangement, analytic_lights, .. } = assembly;
         let (visible, placements) = (Arc::new(arrangement.visible(&pose)), arrangement.placements(&pose));
-        let snapshot = Arc::new(Snapshot::new(device, id, visible, &placements, &analytic_lights));
+        let corners = Snapshot::upload_corners(device, &arrangement.corners());
+        let snapshot = Arc::new(Snapshot::new(device, id, visible, &placements, corners, &analytic_lights));
         Ok(Self { id, contents, stack, triangles, arrangement, buffers, snapshot })
     }
 
@@ -74,7 +76,9 @@ impl GpuScene {
         if now == *before {
             return Ok(());
         }
-        if self.arrangement.instanced && !now.is_placed_as(before) {
+        let reshaped = if now.is_shaped_as(before) { Vec::new() } else { self.arrangement.reshape(pose) };
+        reshaped.iter().for_each(|shape| self.buffers.replace_shape(device, encoder, shape));
+        if self.arrangement.instanced && (!reshaped.is_empty() || !now.is_placed_as(before)) {
             self.buffers.replace_top_level(device, encoder, &self.arrangement.top_level(pose));
             if let Some(facets) = self.arrangement.facets(pose) {
                 self.buffers.replace_facets(device, &facets);
@@ -85,7 +89,12 @@ impl GpuScene {
         }
         let analytic = self.arrangement.place_lights(pose);
         self.buffers.replace_lights(device, encoder, &self.arrangement.lights.table);
-        self.snapshot = Arc::new(Snapshot::new(device, self.id, now, &self.arrangement.placements(pose), &analytic));
+        let corners = match &reshaped[..] {
+            [] => self.snapshot.corners.clone(),
+            _ => Snapshot::upload_corners(device, &self.arrangement.corners()),
+        };
+        let placements = self.arrangement.placements(pose);
+        self.snapshot = Arc::new(Snapshot::new(device, self.id, now, &placements, corners, &analytic));
         Ok(())
     }
 

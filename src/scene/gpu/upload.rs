@@ -2,11 +2,13 @@
 
 use super::arrangement::{Facets, TopLevel};
 use super::assembly::Assembly;
+use super::geometry::deforming::Reshaped;
 use super::geometry::instances::NODE_TEXELS;
+use super::geometry::sections::ROW_TEXELS;
 use super::light::radiance::pack;
 use super::light::record::GpuLight;
 use super::light::sky::SkyTable;
-use super::memory::buffers::{buffer, storage};
+use super::memory::buffers::{buffer, replaceable, storage};
 use super::memory::folded::{self, Texel};
 use super::memory::pieces::{self, PIECE, Writer};
 use super::surface::images::Images;
@@ -44,10 +46,11 @@ struct Sky {
 impl Buffers {
     pub fn new(device: &Device, queue: &Queue, assembly: &Assembly<'_>) -> Self {
         let &Assembly { ref header, ref geometry, ref attributes, ref materials, images, ref sky, .. } = assembly;
+        let attribute_buffer = if assembly.contents.deforming { replaceable } else { storage };
         Self {
             scene: buffer(device, "scene", bytemuck::bytes_of(header), BufferUsages::UNIFORM),
             geometry: folded(device, queue, "geometry", geometry),
-            attributes: storage(device, "normals and texture coordinates", attributes, 4),
+            attributes: attribute_buffer(device, "normals and texture coordinates", attributes, 4),
             images: Images::new(device, queue, images, assembly.contents.folded_images),
             materials: folded(device, queue, "materials", materials),
             lights: folded(device, queue, "lights", &assembly.arrangement.lights.table),
@@ -59,8 +62,21 @@ impl Buffers {
     /// Records the replacement of the top level and the records of instances.
     pub fn replace_top_level(&mut self, device: &Device, encoder: &mut CommandEncoder, top_level: &TopLevel) {
         self.scene = buffer(device, "scene", bytemuck::bytes_of(&top_level.header), BufferUsages::UNIFORM);
-        let first_row = top_level.header.root() / (folded::WIDTH / NODE_TEXELS) as u32;
-        folded::replace(device, encoder, &self.geometry.0, first_row, &top_level.texels);
+        let first = top_level.header.root() as usize * NODE_TEXELS;
+        folded::replace(device, encoder, &self.geometry.0, first, &top_level.texels);
+    }
+
+    /// Records the replacement of a mesh's shape: its rows, normals and tree.
+    pub fn replace_shape(&self, device: &Device, encoder: &mut CommandEncoder, shape: &Reshaped) {
+        let geometry = &self.geometry.0;
+        let Reshaped { first_row, rows, attributes: (first_word, words), first_node, nodes } = shape;
+        folded::replace(device, encoder, geometry, *first_row as usize * ROW_TEXELS, folded::texels(rows));
+        folded::replace(device, encoder, geometry, *first_node as usize * NODE_TEXELS, folded::texels(nodes));
+        if !words.is_empty() {
+            let staging = buffer(device, "staging", bytemuck::cast_slice(words), BufferUsages::COPY_SRC);
+            let offset = (first_word * size_of::<u32>()) as u64;
+            encoder.copy_buffer_to_buffer(&staging, 0, &self.attributes, offset, staging.size());
+        }
     }
 
     /// Replaces the triangles in world space of a scene that has few.
@@ -91,7 +107,10 @@ impl Buffers {
             SceneBinding::Attributes => &self.attributes,
             SceneBinding::Facets => &self.facets[0],
             SceneBinding::FacetOwners => &self.facets[1],
-            SceneBinding::PlacementsBefore | SceneBinding::AnalyticLights | SceneBinding::AnalyticLightsBefore => {
+            SceneBinding::PlacementsBefore
+            | SceneBinding::CornersBefore
+            | SceneBinding::AnalyticLights
+            | SceneBinding::AnalyticLightsBefore => {
                 return None;
             }
         };

@@ -1,6 +1,7 @@
 //! Behaviour over several frames.
 
 mod change;
+mod deformation;
 mod far;
 mod flicker;
 mod gloss;

@@ -6,3 +6,4 @@ pub mod plane;
 pub mod scenes;
 pub mod stage;
 pub mod statistics;
+pub mod walker;

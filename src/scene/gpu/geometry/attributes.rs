@@ -1,13 +1,14 @@
 //! Normals, tangents, texture coordinates and colours of triangles.
 
+use super::drawn::Posed;
 use super::groups::Face;
-use super::tangents::{Tangents, mapped};
-use crate::scene::description::{Material, Mesh, Scene};
+use super::tangents::{self, Tangents, mapped};
+use crate::scene::description::{Material, Scene};
 use glam::{Vec2, Vec3};
 
 /// Places of a triangle's words in the attributes: three normals, three tangents, then three (u, v) per set, then three colours, each
 /// only if the scene needs it.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Layout {
     pub stride: usize,
     pub normals: bool,
@@ -42,10 +43,11 @@ impl Layout {
         layout
     }
 
-    /// Appends the words of a face. `tangents` are those of its mesh, if it has a normal map.
-    pub fn push(&self, attributes: &mut Vec<u32>, mesh: &Mesh, tangents: Option<&Tangents>, face: &Face) {
+    /// Appends the words of a face. `tangents` are those of its mesh as it is, if it has a normal map.
+    pub fn push(&self, attributes: &mut Vec<u32>, posed: &Posed<'_>, tangents: Option<&Tangents>, face: &Face) {
+        let mesh = posed.mesh;
         let mirrored = face.placement.determinant() < 0.0;
-        let in_order = |[a, b, c]: [_; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+        let in_order = |[a, b, c]: [_; 3]| if mirrored != posed.mirrored { [a, c, b] } else { [a, b, c] };
         let corners = in_order(mesh.triangles[face.triangle]);
         if self.normals {
             // Normals transform by the transpose of the inverse.
@@ -53,14 +55,14 @@ impl Layout {
             // Images of normals need one to be relative to.
             let flat = if tangents.is_some() { face.area_normal() } else { Vec3::ZERO };
             for corner in corners {
-                let normal = mesh.normals.get(corner as usize).map_or(flat, |&n| map * Vec3::from(n));
+                let normal = posed.normals().get(corner as usize).map_or(flat, |&n| map * Vec3::from(n));
                 attributes.push(normal.try_normalize().map_or(0, pack_octahedral));
             }
         }
         if self.tangents {
             let map = face.placement.as_mat3();
             let packed = tangents.and_then(|tangents| {
-                let [a, b, c] = tangents[face.triangle].map(|tangent| {
+                let [a, b, c] = tangents::posed(tangents, posed, face.triangle).map(|tangent| {
                     let direction = (map * tangent.truncate()).try_normalize()?;
                     Some(pack_tangent(direction, (tangent.w < 0.0) != mirrored))
                 });

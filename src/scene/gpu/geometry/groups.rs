@@ -1,9 +1,9 @@
 //! Gathers meshes into groups that share a tree.
 
 use super::centre;
-use crate::scene::description::{Mesh, Scene, WorldMatrix};
+use super::drawn::{Drawn, Posed};
+use crate::scene::description::WorldMatrix;
 use glam::{DMat3, DMat4, DVec3, Vec3};
-use std::collections::BTreeMap;
 
 /// Maximum number of triangles in all copies of a static mesh that is used several times and still copied into the static geometry. A
 /// copy saves the second level of trees.
@@ -11,15 +11,17 @@ const COPIED_TRIANGLES: usize = 4096;
 
 /// Geometry that shares a tree, in the tree's space.
 pub(crate) struct Group {
-    /// The nodes that place it. Empty for the static geometry, which is in world space already.
+    /// The nodes that place it. Empty if it is in world space already: for the static geometry, and for meshes that joints place.
     pub nodes: Vec<usize>,
     /// Origin of the corners, in the space of the tree.
     pub centre: DVec3,
     pub faces: Vec<Face>,
+    /// Number of the mesh among those drawn, if the mesh changes its shape.
+    pub deforms: Option<usize>,
 }
 
 impl Group {
-    /// The node of each instance. The static geometry is one instance, without a node.
+    /// The node of each instance. Geometry in world space is one instance, without a node.
     pub fn placements(&self) -> Vec<Option<usize>> {
         if self.nodes.is_empty() { vec![None] } else { self.nodes.iter().copied().map(Some).collect() }
     }
@@ -28,6 +30,7 @@ impl Group {
 /// A triangle of a [`Group`].
 #[derive(Clone, Copy)]
 pub(crate) struct Face {
+    /// Number of the mesh among those drawn.
     pub mesh: usize,
     pub triangle: usize,
     pub corners: [Vec3; 3],
@@ -42,29 +45,28 @@ impl Face {
     }
 }
 
-/// Sorts the scene's meshes into groups. The static geometry comes first, in world space as `world` places its nodes, relative to
-/// `centre`. One group follows for each mesh that moves or repeats.
-pub(crate) fn groups(scene: &Scene, world: &[WorldMatrix], centre: DVec3) -> Vec<Group> {
-    let moves = scene.animated_nodes();
-    let mut uses: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (node, description) in scene.nodes.iter().enumerate() {
-        for &mesh in &description.meshes {
-            uses.entry(mesh).or_default().push(node);
-        }
-    }
-    let mut fixed = Group { nodes: Vec::new(), centre, faces: Vec::new() };
+/// Sorts meshes into groups. The static geometry comes first, in world space as `world` places its nodes, relative to `centre`. One
+/// group follows for each mesh that moves or repeats, or changes its shape. `moves` tells for each node if it may ever move.
+pub(crate) fn groups(drawn: &[Drawn<'_>], world: &[WorldMatrix], moves: &[bool], centre: DVec3) -> Vec<Group> {
+    let mut fixed = Group { nodes: Vec::new(), centre, faces: Vec::new(), deforms: None };
     let mut placed = Vec::new();
-    for (mesh, nodes) in uses {
-        let description = &scene.meshes[mesh];
-        let copied = nodes.len() == 1 || nodes.len() * description.triangles.len() <= COPIED_TRIANGLES;
-        let (still, moving): (Vec<_>, Vec<_>) = nodes.into_iter().partition(|&n| copied && !moves[n]);
-        for node in still {
-            fixed.faces.extend(faces(description, mesh, DMat4::from_cols_array_2d(&world[node]), centre));
+    for (number, drawn) in drawn.iter().enumerate() {
+        let (posed, nodes) = (drawn.posed(), &drawn.nodes);
+        let triangles = posed.mesh.triangles.len();
+        let deforms = drawn.source.is_some().then_some(number);
+        if drawn.is_in_world() && deforms.is_none() {
+            fixed.faces.extend(faces(&posed, number, DMat4::IDENTITY, centre));
         }
-        if !moving.is_empty() && !description.triangles.is_empty() {
-            let centre = own_centre(description);
-            let faces = faces(description, mesh, DMat4::IDENTITY, centre).collect();
-            placed.push(Group { nodes: moving, centre, faces });
+        let copied = nodes.len() == 1 || nodes.len() * triangles <= COPIED_TRIANGLES;
+        let is_still = |node: usize| copied && !moves[node] && deforms.is_none();
+        let (still, moving): (Vec<_>, Vec<_>) = nodes.iter().copied().partition(|&node| is_still(node));
+        for node in still {
+            fixed.faces.extend(faces(&posed, number, DMat4::from_cols_array_2d(&world[node]), centre));
+        }
+        if triangles > 0 && (deforms.is_some() || !moving.is_empty()) {
+            let centre = if drawn.is_in_world() { centre } else { own_centre(&posed) };
+            let faces = faces(&posed, number, DMat4::IDENTITY, centre).collect();
+            placed.push(Group { nodes: moving, centre, faces, deforms });
         }
     }
     if !fixed.faces.is_empty() || placed.is_empty() {
@@ -73,23 +75,26 @@ pub(crate) fn groups(scene: &Scene, world: &[WorldMatrix], centre: DVec3) -> Vec
     placed
 }
 
-fn position(mesh: &Mesh, vertex: u32) -> DVec3 {
-    mesh.positions[vertex as usize].map(f64::from).into()
-}
-
 /// The centre of a mesh in its own space.
-fn own_centre(mesh: &Mesh) -> DVec3 {
-    let corners = mesh.triangles.iter().flatten().map(|&vertex| position(mesh, vertex));
+fn own_centre(posed: &Posed<'_>) -> DVec3 {
+    let corners = posed.mesh.triangles.iter().flatten().map(|&vertex| posed.position(vertex));
     centre::bounds(corners).map_or(DVec3::ZERO, centre::centre)
 }
 
-fn faces(mesh: &Mesh, index: usize, world: DMat4, centre: DVec3) -> impl Iterator<Item = Face> {
+/// The largest coordinate of a mesh that changes its shape, in metres. The fourth power of an edge between two such points is a number
+/// of f32, so that areas and weights in shaders are finite.
+const FARTHEST: f64 = 1e9;
+
+/// The faces of a mesh with this number, relative to `centre`.
+pub(crate) fn faces(posed: &Posed<'_>, number: usize, world: DMat4, centre: DVec3) -> impl Iterator<Item = Face> {
     let placement = DMat3::from_mat4(world);
-    let mirrored = placement.determinant() < 0.0;
-    mesh.triangles.iter().enumerate().map(move |(triangle, corners)| {
-        let [a, b, c] = corners.map(|v| (world.transform_point3(position(mesh, v)) - centre).as_vec3());
-        // A mirroring placement reverses the winding. It is reversed again here, so that the front stays the front.
+    // A mirroring placement reverses the winding. It is reversed again here, so that the front stays the front.
+    let mirrored = (placement.determinant() < 0.0) != posed.mirrored;
+    let limit = if posed.shape.is_some() { FARTHEST } else { f64::INFINITY };
+    posed.mesh.triangles.iter().enumerate().map(move |(triangle, corners)| {
+        let place = |vertex| world.transform_point3(posed.position(vertex)) - centre;
+        let [a, b, c] = corners.map(|vertex| place(vertex).clamp(DVec3::splat(-limit), DVec3::splat(limit)).as_vec3());
         let corners = if mirrored { [a, c, b] } else { [a, b, c] };
-        Face { mesh: index, triangle, corners, placement }
+        Face { mesh: number, triangle, corners, placement }
     })
 }

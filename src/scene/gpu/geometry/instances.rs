@@ -13,7 +13,7 @@ const RECORD_TEXELS: usize = 10;
 /// A tree placed in the world.
 #[derive(Debug)]
 pub(crate) struct Instance {
-    /// The node that places the tree. `None` for the static geometry, which is in world space already.
+    /// The node that places the tree. `None` if it is in world space already: for the static geometry, and for meshes that joints place.
     pub node: Option<usize>,
     /// Origin of the tree's coordinates, in the space of the node.
     pub centre: DVec3,
@@ -25,6 +25,8 @@ pub(crate) struct Instance {
     pub first_light: u32,
     pub bounds: [[f32; 3]; 2],
     pub grid: Quantization,
+    /// Number of its first triangle among those that change their shape, if they do.
+    pub first_corner: Option<u32>,
 }
 
 impl Instance {
@@ -68,7 +70,8 @@ pub(crate) fn place(instances: &[Instance], pose: &Pose, centre: DVec3, first_no
         texels.push(padded(instance.grid.base));
         texels.push(padded(instance.grid.step));
         texels.push([instance.root, instance.first_id, instance.first_light, instance.first_row << 1 | mirrored]);
-        texels.push(padded(rounding(now, back, *bounds)));
+        let [x, y, z, _] = padded(rounding(now, back, *bounds));
+        texels.push([x, y, z, instance.first_corner.map_or(0, |first| first + 1)]);
     }
     Placed { texels, depth: top.depth, grid: top.grid }
 }

@@ -6,7 +6,7 @@ use crate::scene::gpu::memory::folded::{self, Texel};
 use crate::scene::gpu::tree::Node;
 
 /// Texels of a row of the lookup table, as in shaders/shared/scene.wgsl.
-const ROW_TEXELS: usize = 3;
+pub(crate) const ROW_TEXELS: usize = 3;
 
 /// Places of the parts. The top level and the records of instances have texture rows of their own, because they are replaced when
 /// something moves.
@@ -23,7 +23,8 @@ pub(crate) struct Sections {
 
 impl Sections {
     pub fn of(groups: &[Group]) -> Self {
-        let instanced = groups.len() > 1 || groups.iter().any(|group| !group.nodes.is_empty());
+        let instanced =
+            groups.len() > 1 || groups.iter().any(|group| !group.nodes.is_empty() || group.deforms.is_some());
         let instances = groups.iter().map(|group| group.nodes.len().max(1)).sum();
         Self::new(groups.iter().map(|group| group.faces.len()).sum(), instances, instanced)
     }

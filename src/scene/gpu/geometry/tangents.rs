@@ -1,7 +1,8 @@
 //! Tangents for normal maps: those of the mesh, or those of MikkTSpace (Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited"),
 //! which bakers of normal maps use and glTF prescribes.
 
-use crate::scene::description::{Material, Mesh, Texture};
+use super::drawn::Posed;
+use crate::scene::description::{Material, Mesh, Texture, turned_tangent};
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use glam::{Vec3, Vec4};
 
@@ -16,12 +17,31 @@ pub(crate) fn mapped(mesh: &Mesh, material: &Material) -> Option<Texture> {
 /// The tangents of a mesh that has a normal map.
 pub(crate) fn of(mesh: &Mesh, material: &Material) -> Option<Tangents> {
     let texture = mapped(mesh, material)?;
-    // Without normals a mesh is flat, and tangents that belong to others have no meaning.
-    if mesh.normals.is_empty() || mesh.tangents.is_empty() {
+    if !has_own(mesh) {
         return Some(made(mesh, &texture));
     }
     let tangent = |corner: u32| Vec4::from(mesh.tangents[corner as usize]);
     Some(mesh.triangles.iter().map(|corners| corners.map(tangent)).collect())
+}
+
+/// True if the tangents of the mesh count. Without normals a mesh is flat, and tangents that belong to others have no meaning.
+fn has_own(mesh: &Mesh) -> bool {
+    !mesh.normals.is_empty() && !mesh.tangents.is_empty()
+}
+
+/// The tangents of a triangle's corners in a shape of the mesh. Those that MikkTSpace made follow joints, but no morph target has
+/// offsets for them.
+pub(crate) fn posed(tangents: &Tangents, posed: &Posed<'_>, triangle: usize) -> [Vec4; 3] {
+    let at_rest = tangents[triangle];
+    let Some(shape) = posed.shape else { return at_rest };
+    let vertices = posed.mesh.triangles[triangle].map(|vertex| vertex as usize);
+    if has_own(posed.mesh) {
+        return vertices.map(|vertex| shape.tangents[vertex].into());
+    }
+    [0, 1, 2].map(|corner| {
+        let turn = shape.turns.get(vertices[corner]);
+        turn.map_or(at_rest[corner], |turn| turned_tangent(turn, at_rest[corner]))
+    })
 }
 
 /// The tangents that MikkTSpace makes.

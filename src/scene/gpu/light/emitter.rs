@@ -18,6 +18,12 @@ pub(crate) struct Emitter {
 }
 
 impl Emitter {
+    /// Replaces the triangles by others, each with its three corners.
+    pub fn reshape(&mut self, triangles: impl Iterator<Item = [Vec3; 3]>) {
+        *self = Self { instance: self.instance, material: self.material, ..Default::default() };
+        triangles.for_each(|[a, b, c]| self.add([a, b, c], 0.5 * (b - a).cross(c - a)));
+    }
+
     pub fn add(&mut self, corners: [Vec3; 3], normal: Vec3) {
         let area = normal.length();
         self.centre += area * (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -33,7 +39,7 @@ impl Emitter {
         let flat = self.normal.length() > 0.5 * self.area;
         let shown = if flat { self.normal.length() } else { self.area / 4.0 };
         AnalyticLight {
-            position: placement.transform_point3(self.centre / self.area).to_array(),
+            position: placement.transform_point3(self.centre / self.area.max(f32::MIN_POSITIVE)).to_array(),
             kind: if flat { EMITTER } else { POINT },
             axis: placement.transform_vector3(self.normal).normalize_or(Vec3::NEG_Y).to_array(),
             range: LONGEST_RANGE,

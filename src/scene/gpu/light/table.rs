@@ -13,7 +13,7 @@ use super::record::{self, GpuLight};
 use crate::scene::description::{Material, Pose, Scene};
 use crate::scene::gpu::geometry::centre::relative;
 use crate::scene::gpu::geometry::groups::Face;
-use glam::{DVec3, Mat4};
+use glam::{DVec3, Mat4, Vec3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -32,6 +32,13 @@ impl Lights {
     /// The nodes of the lights without area.
     pub fn nodes(&self) -> impl Iterator<Item = usize> {
         self.punctual.iter().map(|light| light.node)
+    }
+
+    /// Replaces the emitting triangles of an instance by others.
+    pub fn reshape(&mut self, instance: usize, triangles: impl Iterator<Item = [Vec3; 3]>) {
+        if let Some(emitter) = self.emitters.iter_mut().find(|emitter| emitter.instance == instance) {
+            emitter.reshape(triangles);
+        }
     }
 
     /// Places the lights in a pose, where an instance has this `placement`. Returns those that the Blinn–Phong gradient evaluates.

@@ -10,10 +10,19 @@ pub(crate) fn buffer(device: &Device, label: &str, contents: &[u8], usage: Buffe
 
 /// A storage buffer of at least `least` bytes, as its binding requires.
 pub(crate) fn storage<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -> Buffer {
+    at_least(device, label, contents, least, BufferUsages::STORAGE)
+}
+
+/// The same, with contents that may be replaced.
+pub(crate) fn replaceable<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize) -> Buffer {
+    at_least(device, label, contents, least, BufferUsages::STORAGE | BufferUsages::COPY_DST)
+}
+
+fn at_least<T: Pod>(device: &Device, label: &str, contents: &[T], least: usize, usage: BufferUsages) -> Buffer {
     let bytes: &[u8] = bytemuck::cast_slice(contents);
     if bytes.len() >= least {
-        buffer(device, label, bytes, BufferUsages::STORAGE)
+        buffer(device, label, bytes, usage)
     } else {
-        buffer(device, label, &vec![0; least], BufferUsages::STORAGE)
+        buffer(device, label, &vec![0; least], usage)
     }
 }

@@ -4,7 +4,7 @@ use super::halve::halve;
 use super::layout::{Leaves, Tree, lay_out};
 use glam::Vec3A;
 use obvhs::bvh2::{Bvh2, leaf_collapser::collapse, reinsertion::ReinsertionOptimizer};
-use obvhs::{BvhBuildParams, aabb::Aabb, ploc::PlocBuilder, triangle::Triangle};
+use obvhs::{BvhBuildParams, aabb::Aabb, ploc::PlocBuilder};
 use std::collections::HashMap;
 
 /// Maximum number of triangles in a leaf. Up to here, a test of each is cheaper than another level.
@@ -40,14 +40,22 @@ fn within(
 
 /// A tree over triangles. Its nodes have numbers from `first_node` on, its triangles rows from `first_row` on.
 pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32) -> Tree {
-    let triangle = |t: &[[f32; 3]; 3]| Triangle { v0: Vec3A::from(t[0]), v1: Vec3A::from(t[1]), v2: Vec3A::from(t[2]) };
-    let boxes: Vec<Aabb> = corners.iter().map(|t| triangle(t).aabb()).collect();
-    let build = || {
-        let boxes: Vec<Aabb> = (0..).zip(&boxes).map(|(number, &b)| unlike(b, number)).collect();
-        build(&boxes, BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() })
-    };
+    let boxes = boxes_of(corners);
+    let params = BvhBuildParams { max_prims_per_leaf: LEAF_TRIANGLES, ..BvhBuildParams::medium_build() };
     let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Triangles(first_row));
-    within(DEEPEST, &boxes, LEAF_TRIANGLES, build, lay_out)
+    within(DEEPEST, &boxes, LEAF_TRIANGLES, || build(&all_unlike(&boxes), params), lay_out)
+}
+
+/// A tree of at most `deepest` levels over triangles, one in each leaf, whose rows are in the order of the triangles.
+pub(crate) fn over_rows(corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32, deepest: u32) -> Tree {
+    let boxes = boxes_of(corners);
+    let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
+    let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Single(first_row));
+    within(deepest, &boxes, 1, || build(&all_unlike(&boxes), params), lay_out)
+}
+
+fn boxes_of(corners: &[[[f32; 3]; 3]]) -> Vec<Aabb> {
+    corners.iter().map(|triangle| Aabb::from_points(&triangle.map(Vec3A::from))).collect()
 }
 
 /// The steps of obvhs' `build_bvh2`. That function also measures their time, with a clock that browsers lack.
@@ -62,6 +70,10 @@ fn build(boxes: &[Aabb], params: BvhBuildParams) -> Bvh2 {
     let ratio = params.reinsertion_batch_ratio * params.post_collapse_reinsertion_batch_ratio_multiplier;
     optimizer.run(&mut bvh, ratio, None);
     bvh
+}
+
+fn all_unlike(boxes: &[Aabb]) -> Vec<Aabb> {
+    (0..).zip(boxes).map(|(number, &b)| unlike(b, number)).collect()
 }
 
 /// A box grown by up to a 4096th of its longest side, by a hash of its number. obvhs merges nearest neighbours. In regular grids all
@@ -87,13 +99,13 @@ pub(crate) const DEEPEST: u32 = 48;
 pub(crate) fn over_instances(boxes: &[[[f32; 3]; 2]], first_node: u32, deepest: u32) -> Tree {
     let boxes: Vec<Aabb> = boxes.iter().map(|b| Aabb::new(b[0].into(), b[1].into())).collect();
     let build = || build(&boxes, BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() });
-    let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Instances);
+    let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Single(0));
     within(deepest, &boxes, 1, build, lay_out)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::node::{COUNT_SHIFT, LEAF};
+pub(super) mod tests {
+    use super::super::node::rows_of_leaf;
     use super::super::quantization::Quantization;
     use super::*;
     use obvhs::bvh2::builder;
@@ -115,16 +127,14 @@ mod tests {
     }
 
     /// Visits the whole tree and checks that each child's box holds all that is below it.
-    fn check(tree: &Tree, corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32) {
+    pub fn check(tree: &Tree, corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32) {
         let mut seen = vec![0; corners.len()];
         let mut pending = vec![0_usize];
         while let Some(index) = pending.pop() {
             for child in tree.nodes[index].children {
                 let (low, high) = unquantize(tree.grid, child.bounds);
-                if child.reference & LEAF != 0 {
-                    let (first, count) =
-                        (child.reference & ((1 << COUNT_SHIFT) - 1), child.reference >> COUNT_SHIFT & 15);
-                    for row in first..first + count {
+                if let Some(rows) = rows_of_leaf(child.reference) {
+                    for row in rows {
                         let triangle = tree.order[(row - first_row) as usize] as usize;
                         seen[triangle] += 1;
                         for corner in corners[triangle] {
@@ -178,7 +188,7 @@ mod tests {
     fn a_tree_of_nothing_has_a_root_whose_leaves_are_empty() {
         let tree = over_triangles(&[], 0, 0);
         assert_eq!(tree.nodes.len(), 1);
-        assert!(tree.nodes[0].children.iter().all(|c| c.reference >> COUNT_SHIFT & 15 == 0));
+        assert!(tree.nodes[0].children.iter().all(|c| rows_of_leaf(c.reference).is_some_and(|rows| rows.is_empty())));
     }
 
     /// The number of boxes that a ray through the root is expected to visit: the sum of their areas over the root's.

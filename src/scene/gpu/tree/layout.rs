@@ -19,8 +19,8 @@ pub(crate) struct Tree {
 pub(crate) enum Leaves {
     /// Runs of triangles, whose rows begin here.
     Triangles(u32),
-    /// Single instances.
-    Instances,
+    /// Single instances, or single triangles whose rows begin here in the order of the primitives.
+    Single(u32),
 }
 
 pub(crate) fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Leaves) -> Tree {
@@ -55,7 +55,7 @@ pub(crate) fn lay_out(bvh: &Bvh2, primitives: usize, first_node: u32, leaves: Le
                 Leaves::Triangles(first_row) => {
                     child.reference = leaf(first_row + tree.order.len() as u32, node.prim_count);
                 }
-                Leaves::Instances => child.reference = leaf(primitives[0], 1),
+                Leaves::Single(first) => child.reference = leaf(first + primitives[0], 1),
             }
             tree.order.extend_from_slice(primitives);
         } else {

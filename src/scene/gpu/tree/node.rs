@@ -1,6 +1,7 @@
 //! Nodes and references as shaders/shared/traverse.wgsl reads them.
 
 use bytemuck::{Pod, Zeroable};
+use std::ops::Range;
 
 /// A node as the shader reads it: the boxes of its two children (Aila and Laine 2009), each with its reference.
 ///
@@ -30,6 +31,13 @@ pub(crate) const LEAF: u32 = 0x8000_0000;
 pub(crate) const COUNT_SHIFT: u32 = 27;
 /// Number of rows, or of instances, that the reference of a leaf can address.
 pub(crate) const LARGEST_FIRST: u32 = (1 << COUNT_SHIFT) - 2;
+
+/// The rows of a leaf's reference, or `None` for the reference of an inner node.
+pub(crate) fn rows_of_leaf(reference: u32) -> Option<Range<u32>> {
+    let first = reference & ((1 << COUNT_SHIFT) - 1);
+    (reference & LEAF != 0).then(|| first..first + (reference >> COUNT_SHIFT & 15))
+}
+
 /// Reference to a run of triangles, or to one instance.
 pub(crate) fn leaf(first: u32, count: u32) -> u32 {
     LEAF | count << COUNT_SHIFT | first

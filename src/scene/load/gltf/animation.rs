@@ -1,4 +1,4 @@
-//! Animations of nodes.
+//! Animations of nodes and of morph weights.
 
 use std::collections::HashSet;
 
@@ -23,19 +23,19 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
         let mut targets = HashSet::new();
         for (number, channel) in animation.channels.iter().enumerate() {
             let element = format!("animations[{index}].channels[{number}]");
-            match read_channel(source, animation, index, channel, &element, places, report) {
-                Ok(Some(channel)) if !targets.insert(channel.target) => {
+            match read_channel(source, animation, index, channel, &element, (places, scene), report) {
+                Ok(read) if read.iter().any(|channel| targets.contains(&channel.target)) => {
                     report.warn(element, "an earlier channel has the same target; this one is left out");
                 }
-                Ok(Some(channel)) if values + channel.values.len() > MAX_VALUES => {
+                Ok(read) if values + read.iter().map(|channel| channel.values.len()).sum::<usize>() > MAX_VALUES => {
                     let reason = format!("the file has more than {MAX_VALUES} animated values; it is left out");
                     report.warn_once(element, reason);
                 }
-                Ok(Some(channel)) => {
-                    values += channel.values.len();
-                    channels.push(channel);
+                Ok(read) => {
+                    values += read.iter().map(|channel| channel.values.len()).sum::<usize>();
+                    targets.extend(read.iter().map(|channel| channel.target));
+                    channels.extend(read);
                 }
-                Ok(None) => {}
                 Err(fault) => report.replace(fault, "the channel is left out"),
             }
         }
@@ -44,25 +44,28 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
     }
 }
 
-/// Reads a channel. `None` if it moves nothing that is drawn.
+/// Reads a channel: one for each morph target if it is one of weights, and none if it moves nothing that is drawn.
 fn read_channel(
     source: &Source<'_>,
     animation: &json::Animation,
     index: usize,
     channel: &json::Channel,
     element: &str,
-    places: &Places,
+    (places, scene): (&Places, &Scene),
     report: &mut Report,
-) -> Result<Option<Channel>, Fault> {
+) -> Result<Vec<Channel>, Fault> {
     source.get(channel.target.node, &format!("{element}.target.node"))?;
-    let Some(&node) = places.get(&channel.target.node.value()) else { return Ok(None) };
-    let (target, shape) = match channel.target.path {
-        Checked::Valid(Property::Translation) => (Target::Translation(node), Type::Vec3),
-        Checked::Valid(Property::Rotation) => (Target::Rotation(node), Type::Vec4),
-        Checked::Valid(Property::Scale) => (Target::Scale(node), Type::Vec3),
+    let Some(&node) = places.get(&channel.target.node.value()) else { return Ok(Vec::new()) };
+    let (targets, shape) = match channel.target.path {
+        Checked::Valid(Property::Translation) => (vec![Target::Translation(node)], Type::Vec3),
+        Checked::Valid(Property::Rotation) => (vec![Target::Rotation(node)], Type::Vec4),
+        Checked::Valid(Property::Scale) => (vec![Target::Scale(node)], Type::Vec3),
         Checked::Valid(Property::MorphTargetWeights) => {
-            report.warn_once(element, "animated morph targets are not read; the shape at rest is drawn");
-            return Ok(None);
+            let count = scene.nodes.get(node).map_or(0, |node| scene.target_count(node));
+            if count == 0 {
+                return Err(Fault::new(format!("{element}.target"), "the meshes of the node have no morph targets"));
+            }
+            ((0..count).map(|target| Target::Weight { node, target }).collect(), Type::Scalar)
         }
         Checked::Invalid => {
             let reason = "is none of translation, rotation, scale and weights";
@@ -70,19 +73,19 @@ fn read_channel(
         }
     };
     let sampler = lookup(&animation.samplers, channel.sampler, &format!("{element}.sampler"))?;
-    read(source, sampler, target, shape, &format!("animations[{index}].samplers[{}]", channel.sampler), report)
-        .map(Some)
+    read(source, sampler, &targets, shape, &format!("animations[{index}].samplers[{}]", channel.sampler), report)
 }
 
+/// Reads the keys of a channel, of which each has a value for each target.
 fn read(
     source: &Source<'_>,
     sampler: &Sampler,
-    target: Target,
+    targets: &[Target],
     shape: Type,
     element: &str,
     report: &mut Report,
-) -> Result<Channel, Fault> {
-    let (interpolation, per_key) = match sampler.interpolation {
+) -> Result<Vec<Channel>, Fault> {
+    let (interpolation, parts) = match sampler.interpolation {
         Checked::Valid(json::Interpolation::Step) => (Interpolation::Step, 1),
         Checked::Valid(json::Interpolation::Linear) => (Interpolation::Linear, 1),
         Checked::Valid(json::Interpolation::CubicSpline) => (Interpolation::CubicSpline, 3),
@@ -92,6 +95,8 @@ fn read(
             (Interpolation::Linear, 1)
         }
     };
+    // A spline has all in-tangents of a key first, then all values, then all out-tangents.
+    let per_key = parts * targets.len();
     let (input, output) = (format!("{element}.input"), format!("{element}.output"));
     let times = Elements::open(source, sampler.input, Type::Scalar, &[ComponentType::F32], &input)?;
     let values = Elements::open(source, sampler.output, shape, REAL, &output)?;
@@ -121,7 +126,11 @@ fn read(
         Keys { broken: 0, .. } => {}
         _ => report.replace(broken, "they are left out"),
     }
-    Ok(Channel { target, interpolation, times: kept.times, values: kept.values })
+    let channel = |(number, &target): (usize, &Target)| {
+        let values = kept.values.iter().skip(number).step_by(targets.len()).copied().collect();
+        Channel { target, interpolation, times: kept.times.clone(), values }
+    };
+    Ok(targets.iter().enumerate().map(channel).collect())
 }
 
 /// Keys whose times increase.

@@ -10,9 +10,10 @@ use gltf::json::{Index, Mesh as MeshSource};
 
 use super::accessor::{Elements, INDEX, REAL};
 use super::attributes::{self, Vertices};
-use super::deform::Deformation;
 use super::material::default_material;
+use super::morph;
 use super::normals::repair_normals;
+use super::skin;
 use super::source::Source;
 use crate::scene::description::{Material, Mesh, Scene};
 use crate::scene::load::common::report::{Fault, Report};
@@ -25,30 +26,35 @@ const MAX_TRIANGLES: usize = 1 << 26;
 /// cost nothing.
 const MAX_VERTICES: usize = 1 << 27;
 
+/// Maximum number of offsets of morph targets of all meshes of one file. The size of the file does not bound them, because targets may
+/// share accessors.
+const MAX_OFFSETS: usize = 1 << 26;
+
 /// The meshes of a file that were requested.
 pub(super) struct Meshes<'a> {
     source: &'a Source<'a>,
     triangles: usize,
     vertices: usize,
+    offsets: usize,
     default_material: Option<usize>,
-    /// The meshes of the scene for each mesh of the file in a shape, one per primitive.
-    known: HashMap<(usize, Deformation), Vec<usize>>,
+    /// The meshes of the scene for each mesh of the file, one per primitive. A mesh with a skin of another number of joints is another.
+    known: HashMap<(usize, Option<usize>), Vec<usize>>,
 }
 
 impl<'a> Meshes<'a> {
     pub fn new(source: &'a Source) -> Self {
-        Self { source, triangles: 0, vertices: 0, default_material: None, known: HashMap::new() }
+        Self { source, triangles: 0, vertices: 0, offsets: 0, default_material: None, known: HashMap::new() }
     }
 
-    /// The meshes of the scene for a mesh of the file in a shape. The first call reads them.
+    /// The meshes of the scene for a mesh of the file, whose skin has this number of joints. The first call reads them.
     pub fn get(
         &mut self,
         index: Index<MeshSource>,
-        deformation: &Deformation,
+        joints: Option<usize>,
         report: &mut Report,
         scene: &mut Scene,
     ) -> Vec<usize> {
-        let key = (index.value(), deformation.clone());
+        let key = (index.value(), joints);
         if let Some(known) = self.known.get(&key) {
             return known.clone();
         }
@@ -57,7 +63,7 @@ impl<'a> Meshes<'a> {
         for (number, primitive) in mesh.primitives.iter().enumerate() {
             let element = format!("meshes[{index}].primitives[{number}]");
             let name = mesh.name.clone().unwrap_or_default();
-            match self.read(primitive, deformation, &element, report, &mut scene.materials) {
+            match self.read(primitive, joints, &element, report, &mut scene.materials) {
                 Ok(Some(part)) => {
                     parts.push(scene.meshes.len());
                     scene.meshes.push(Mesh { name, ..part });
@@ -74,7 +80,7 @@ impl<'a> Meshes<'a> {
     fn read(
         &mut self,
         primitive: &Primitive,
-        deformation: &Deformation,
+        joints: Option<usize>,
         element: &str,
         report: &mut Report,
         materials: &mut Vec<Material>,
@@ -124,7 +130,19 @@ impl<'a> Meshes<'a> {
             mesh.uvs[set] = vertices.uvs(set as u32, report);
         }
         mesh.colors = vertices.colors(report);
-        deformation.apply(&vertices, &mut mesh, report);
+        let offsets = primitive.targets.as_ref().map_or(0, Vec::len).saturating_mul(kept.len());
+        self.offsets = self.offsets.saturating_add(offsets);
+        if self.offsets <= MAX_OFFSETS {
+            mesh.targets = morph::targets(&vertices, &mesh, report);
+        } else {
+            let reason = format!("the file has more than {MAX_OFFSETS} offsets of morph targets; they are left out");
+            report.warn_once(format!("{element}.targets"), reason);
+        }
+        if let Some(joints) = joints {
+            mesh.influences = skin::influences(&vertices, joints, report);
+            // They take as much memory as the vertices.
+            self.vertices = self.vertices.saturating_add(mesh.influences.len() / 4);
+        }
 
         leave_out_broken(&mut mesh, &kept, &position_element, report)?;
         if !mesh.normals.is_empty() {

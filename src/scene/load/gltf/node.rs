@@ -1,16 +1,14 @@
 //! The node hierarchy of the default scene.
 
 use std::collections::{HashMap, HashSet};
-use std::rc::Rc;
 
-use glam::DMat4;
 use gltf::json::{Index, Node as NodeSource};
 
-use super::deform::{Deformation, Skin, check_influences};
 use super::instancing::instances;
 use super::mesh::Meshes;
+use super::skin::{Skins, check_influences};
 use super::source::{Source, lookup};
-use super::transform::{separate, transform, world};
+use super::transform::{separate, transform};
 use super::{camera, light};
 use crate::scene::description::{Node, Scene};
 use crate::scene::load::common::report::Report;
@@ -26,7 +24,7 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
     let lights = light::read_all(source, report, scene);
     let cameras = camera::read_all(source, report, scene);
     let animated = animated(source);
-    let mut shapes = Shapes { source, meshes: Meshes::new(source), world: None, skins: HashMap::new() };
+    let mut shapes = Shapes { source, meshes: Meshes::new(source), skins: Skins::default() };
     let mut places = Places::new();
     let mut placed = 0;
 
@@ -47,13 +45,13 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
         let transform = transform(node, &element, report);
         let transform =
             if animated.contains(&index.value()) { separate(transform, &element, report) } else { transform };
-        let (meshes, skinned) = shapes.of(node, &element, report, scene);
+        let Shaped { meshes, weights, skin } = shapes.of(node, &element, report, scene);
         let place = scene.nodes.len();
         places.insert(index.value(), place);
         let name = node.name.clone().unwrap_or_default();
         let parent = parent.and_then(|parent| places.get(&parent.value())).copied();
         let own = Node { name: name.clone(), parent, transform, light, camera, ..Node::default() };
-        if skinned {
+        if skin.is_some() {
             let others = node.extensions.as_ref().map(|extensions| &extensions.others);
             if others.is_some_and(|others| others.contains_key("EXT_mesh_gpu_instancing")) {
                 report.warn(
@@ -61,8 +59,7 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
                     "is not read beside a skin; the mesh is drawn once",
                 );
             }
-            // A skinned mesh is placed by its joints, and not by the transform of its node (glTF 2.0, 3.7.3.3).
-            scene.nodes.extend([own, Node { name, meshes, ..Node::default() }]);
+            scene.nodes.push(Node { meshes, weights, skin, ..own });
         } else if let Some(transforms) = instances(source, node, &element, &mut placed, report) {
             scene.nodes.push(own);
             let instance = |transform| Node {
@@ -70,67 +67,61 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
                 parent: Some(place),
                 transform,
                 meshes: meshes.clone(),
+                weights: weights.clone(),
                 ..Node::default()
             };
             scene.nodes.extend(transforms.into_iter().map(instance));
         } else {
-            scene.nodes.push(Node { meshes, ..own });
+            scene.nodes.push(Node { meshes, weights, ..own });
         }
     }
-    warn_of_moving_joints(source, report);
+    Skins::find_joints(source, &animated, &mut places, report, scene);
     places
 }
 
-/// The meshes in the shapes that nodes give them.
+/// The meshes of a node, and the weights and the skin that shape them.
+#[derive(Default)]
+struct Shaped {
+    meshes: Vec<usize>,
+    weights: Vec<f32>,
+    skin: Option<usize>,
+}
+
+/// The meshes and skins that nodes use.
 struct Shapes<'a> {
     source: &'a Source<'a>,
     meshes: Meshes<'a>,
-    /// The matrix of each node of the file, once a skin needs it.
-    world: Option<Vec<DMat4>>,
-    skins: HashMap<usize, Option<Rc<Skin>>>,
+    skins: Skins,
 }
 
 impl Shapes<'_> {
-    /// The meshes of a node, and true if a skin places them.
-    fn of(&mut self, node: &NodeSource, element: &str, report: &mut Report, scene: &mut Scene) -> (Vec<usize>, bool) {
-        let Some(index) = node.mesh else { return (Vec::new(), false) };
+    /// The meshes of a node in their shape.
+    fn of(&mut self, node: &NodeSource, element: &str, report: &mut Report, scene: &mut Scene) -> Shaped {
+        let Some(index) = node.mesh else { return Shaped::default() };
         let mesh = match self.source.get(index, &format!("{element}.mesh")) {
             Ok(mesh) => mesh,
             Err(fault) => {
                 report.lose(fault);
-                return (Vec::new(), false);
+                return Shaped::default();
             }
         };
         // An empty list is no list.
-        let weights = node
-            .weights
-            .clone()
-            .filter(|weights| !weights.is_empty())
-            .or_else(|| mesh.weights.clone())
-            .unwrap_or_default();
-        let mut deformation = Deformation { weights, skin: None };
-        if deformation.weights.iter().any(|weight| !weight.is_finite()) {
+        let weights = node.weights.clone().filter(|weights| !weights.is_empty());
+        let mut weights = weights.or_else(|| mesh.weights.clone()).unwrap_or_default();
+        if weights.iter().any(|weight| !weight.is_finite()) {
             report.warn(format!("{element}.weights"), "a weight is not finite; 0 is used");
-            deformation.weights.iter_mut().filter(|weight| !weight.is_finite()).for_each(|weight| *weight = 0.0);
+            weights.iter_mut().filter(|weight| !weight.is_finite()).for_each(|weight| *weight = 0.0);
         }
-        deformation.skin = node.skin.and_then(|skin| {
-            let known = self.skins.entry(skin.value()).or_insert_with(|| {
-                let world = self.world.get_or_insert_with(|| world(self.source));
-                let read = Skin::read(self.source, skin, world, &format!("{element}.skin"));
-                let instead = "the mesh is drawn without its skin";
-                read.map(Rc::new).map_err(|fault| report.replace(fault, instead)).ok()
-            });
-            known.clone()
-        });
-        if deformation.skin.is_some() {
-            let checked = check_influences(self.source, mesh, &format!("meshes[{index}]"));
-            if let Err(fault) = checked {
-                report.replace(fault, "the mesh is drawn where its node is");
-                deformation.skin = None;
-            }
+        let user = format!("{element}.skin");
+        let mut skin = node.skin.and_then(|skin| self.skins.get(self.source, skin, &user, report, scene));
+        if skin.is_some()
+            && let Err(fault) = check_influences(self.source, mesh, &format!("meshes[{index}]"))
+        {
+            report.replace(fault, "the mesh is drawn where its node is");
+            skin = None;
         }
-        let meshes = self.meshes.get(index, &deformation, report, scene);
-        (meshes, deformation.skin.is_some())
+        let joints = skin.and_then(|skin| scene.skins.get(skin)).map(|skin| skin.joints.len());
+        Shaped { meshes: self.meshes.get(index, joints, report, scene), weights, skin }
     }
 }
 
@@ -213,19 +204,4 @@ fn roots(source: &Source<'_>, report: &mut Report) -> Vec<Index<NodeSource>> {
 fn animated(source: &Source<'_>) -> HashSet<usize> {
     let channels = source.root.animations.iter().flat_map(|animation| &animation.channels);
     channels.map(|channel| channel.target.node.value()).collect()
-}
-
-/// Warns that skins are drawn at rest, if an animation moves one of their joints.
-fn warn_of_moving_joints(source: &Source<'_>, report: &mut Report) {
-    let nodes = &source.root.nodes;
-    let mut moving = animated(source);
-    let mut open: Vec<usize> = moving.iter().copied().collect();
-    while let Some(node) = open.pop() {
-        let children = nodes.get(node).into_iter().flat_map(|node| node.children.iter().flatten());
-        open.extend(children.map(Index::value).filter(|&child| moving.insert(child)));
-    }
-    let moves = |skin: &gltf::json::Skin| skin.joints.iter().any(|joint| moving.contains(&joint.value()));
-    if let Some(skin) = source.root.skins.iter().position(moves) {
-        report.warn(format!("skins[{skin}]"), "animated skins are not read; they are drawn at rest");
-    }
 }

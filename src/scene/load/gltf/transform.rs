@@ -1,11 +1,8 @@
 //! Placements of nodes.
 
-use std::collections::HashMap;
-
-use glam::{Affine3A, DMat4, Mat4, Quat, Vec4};
+use glam::{Affine3A, Mat4, Quat, Vec4};
 use gltf::json::Node as NodeSource;
 
-use super::source::Source;
 use crate::scene::description::Transform;
 use crate::scene::load::common::report::{Fault, Report};
 
@@ -68,43 +65,4 @@ pub(super) fn separate(transform: Transform, element: &str, report: &mut Report)
     report.warn(element, "is animated though it has a matrix; the matrix is split, and shear in it is lost");
     let rotation = if rotation.is_finite() { rotation } else { Quat::IDENTITY };
     Transform::Trs { translation: translation.into(), rotation: rotation.into(), scale: scale.into() }
-}
-
-/// The matrix of each node of the file at rest. Nodes of scenes that are not drawn have one too, because joints may be anywhere.
-pub(super) fn world(source: &Source<'_>) -> Vec<DMat4> {
-    let nodes = &source.root.nodes;
-    let mut parents = HashMap::new();
-    for (index, node) in nodes.iter().enumerate() {
-        for child in node.children.iter().flatten() {
-            parents.entry(child.value()).or_insert(index);
-        }
-    }
-    let local: Vec<DMat4> = nodes.iter().map(|node| matrix(read(node).0)).collect();
-    let mut world: Vec<Option<DMat4>> = vec![None; nodes.len()];
-    for node in 0..nodes.len() {
-        // Up to an ancestor with a known matrix, then down again. The count ends cycles.
-        let mut way = vec![node];
-        while let Some(&parent) = way.last().and_then(|last| parents.get(last)) {
-            if world[parent].is_some() || way.len() > nodes.len() {
-                break;
-            }
-            way.push(parent);
-        }
-        for node in way.into_iter().rev() {
-            let above = parents.get(&node).and_then(|&parent| world[parent]).unwrap_or_default();
-            world[node].get_or_insert(above * local[node]);
-        }
-    }
-    world.into_iter().map(Option::unwrap_or_default).collect()
-}
-
-fn matrix(transform: Transform) -> DMat4 {
-    match transform {
-        Transform::Matrix(matrix) => Mat4::from_cols_array_2d(&matrix).as_dmat4(),
-        Transform::Trs { translation, rotation, scale } => DMat4::from_scale_rotation_translation(
-            glam::Vec3::from(scale).as_dvec3(),
-            Quat::from_array(rotation).as_dquat(),
-            glam::Vec3::from(translation).as_dvec3(),
-        ),
-    }
 }

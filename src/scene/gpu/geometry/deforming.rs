@@ -1,0 +1,105 @@
+//! Meshes whose shape follows the pose: rows, normals and trees that replace those of the last shape.
+
+use super::attributes::Layout;
+use super::drawn::{Drawn, Posed, ShapeSource};
+use super::groups::{Face, Group, faces};
+use super::rows::{Built, Geometry, row};
+use super::tangents::Tangents;
+use crate::scene::description::{Mesh, Pose, Shape};
+use crate::scene::gpu::memory::folded::Texel;
+use crate::scene::gpu::tree::{Fitted, Node};
+use glam::{DMat4, DVec3, Vec3};
+
+/// A mesh whose shape follows the pose, and its shape in the current one.
+#[derive(Debug)]
+pub(crate) struct Deforming {
+    mesh: Mesh,
+    shape: Shape,
+    mirrored: bool,
+    pub source: ShapeSource,
+    tangents: Option<Tangents>,
+    /// Origin of the corners, in the space of the shape.
+    centre: DVec3,
+    layout: Layout,
+    /// Material and number among the emitters, for each row.
+    words: Vec<[u32; 2]>,
+    pub instance: usize,
+    pub first_row: u32,
+    pub tree: Fitted,
+    /// Corners of each row.
+    pub corners: Vec<[Vec3; 3]>,
+}
+
+/// The parts of a scene on the GPU that replace those of a mesh's last shape.
+pub(crate) struct Reshaped {
+    pub first_row: u32,
+    pub rows: Vec<[Texel; 3]>,
+    /// Attributes of the rows, and the place of the first word. Empty if there are no normals.
+    pub attributes: (usize, Vec<u32>),
+    pub first_node: u32,
+    pub nodes: Vec<Node>,
+}
+
+impl Deforming {
+    /// The mesh of a group that was built as an instance. `None` if the mesh keeps its shape.
+    pub fn of(drawn: &[Drawn<'_>], geometry: &Geometry, group: &Group, built: Built, instance: usize) -> Option<Self> {
+        let (number, tree) = (group.deforms?, built.fitted?);
+        let (posed, source) = (drawn[number].posed(), drawn[number].source.clone()?);
+        let number_of = |row: usize| geometry.rows[built.first_row as usize + row].map(|texel| texel[3]);
+        Some(Self {
+            mesh: posed.mesh.clone(),
+            shape: posed.shape?.clone(),
+            mirrored: posed.mirrored,
+            source,
+            tangents: geometry.tangents[number].clone(),
+            centre: group.centre,
+            layout: geometry.layout,
+            words: (0..group.faces.len())
+                .map(|row| number_of(row))
+                .map(|[material, number, _]| [material, number])
+                .collect(),
+            instance,
+            first_row: built.first_row,
+            tree,
+            corners: group.faces.iter().map(|face| face.corners).collect(),
+        })
+    }
+
+    /// Takes the shape of a pose. `None` if it is the one before.
+    pub fn follow(&mut self, pose: &Pose) -> Option<Reshaped> {
+        let shape = self.source.shape(&self.mesh, pose);
+        if shape == self.shape {
+            return None;
+        }
+        self.shape = shape;
+        let faces = self.faces();
+        self.corners = faces.iter().map(|face| face.corners).collect();
+        self.tree.fit(&self.corners.iter().map(|corners| corners.map(|p| p.to_array())).collect::<Vec<_>>());
+        let mut attributes = Vec::new();
+        if self.layout.normals {
+            let posed = self.posed();
+            faces.iter().for_each(|face| self.layout.push(&mut attributes, &posed, self.tangents.as_ref(), face));
+        }
+        Some(Reshaped {
+            first_row: self.first_row,
+            rows: self.corners.iter().zip(&self.words).map(|(&corners, &words)| row(corners, words)).collect(),
+            attributes: (self.first_row as usize * self.layout.stride, attributes),
+            first_node: self.tree.first_node,
+            nodes: self.tree.nodes.clone(),
+        })
+    }
+
+    /// The corners of the rows that emit light.
+    pub fn emitters(&self) -> impl Iterator<Item = [Vec3; 3]> {
+        let rows = self.corners.iter().zip(&self.words);
+        rows.filter(|(_, [_, emitter])| *emitter > 0).map(|(corners, _)| *corners)
+    }
+
+    fn posed(&self) -> Posed<'_> {
+        Posed { mesh: &self.mesh, shape: Some(&self.shape), mirrored: self.mirrored }
+    }
+
+    fn faces(&self) -> Vec<Face> {
+        faces(&self.posed(), 0, DMat4::IDENTITY, self.centre).collect()
+    }
+}
