@@ -34,4 +34,4 @@ macro_rules! groups {
     };
 }
 
-groups!(radiance, samples, outliers, dynamics, geometry, gloss, mirrors, shapes, events, hostile, limits);
+groups!(radiance, samples, outliers, dynamics, geometry, deformation, gloss, mirrors, shapes, events, hostile, limits);

@@ -14,12 +14,13 @@ use std::error::Error;
 use std::ffi::OsString;
 
 /// Groups, in the order of the table.
-const GROUPS: [(&str, &[cases::Case]); 12] = [
+const GROUPS: [(&str, &[cases::Case]); 13] = [
     ("Range of radiance", cases::radiance::CASES),
     ("Missing, infinite and repeated samples", cases::samples::CASES),
     ("Outliers", cases::outliers::CASES),
     ("Stiff dynamics", cases::dynamics::CASES),
     ("Geometry", cases::geometry::CASES),
+    ("Skins and morph targets", cases::deformation::CASES),
     ("Specular light", cases::gloss::CASES),
     ("Mirrors", cases::mirrors::CASES),
     ("Shapes of the image", cases::shapes::CASES),

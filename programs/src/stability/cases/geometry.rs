@@ -161,7 +161,7 @@ pub const CASES: &[Case] = &[
 ];
 
 /// Builds a ball of 12 × 30 quads around a place.
-fn ball(radius: f32, centre: [f32; 3]) -> Mesh {
+pub(super) fn ball(radius: f32, centre: [f32; 3]) -> Mesh {
     let (rings, sectors) = (12_u32, 30_u32);
     let point = |ring: u32, sector: u32| {
         let (polar, azimuth) = (PI * ring as f32 / rings as f32, 2.0 * PI * (sector % sectors) as f32 / sectors as f32);

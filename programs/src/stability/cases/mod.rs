@@ -1,5 +1,6 @@
 //! The cases, by group. The program `stability` and the test of that name share them.
 
+pub mod deformation;
 pub mod dynamics;
 pub mod events;
 pub mod furnace;
