@@ -22,7 +22,7 @@
 #endif
 #endif
 #import asvgf::light::{environment_radiance, environment_density, emitter_density}
-#import asvgf::throughput::{Light, Throughput, add, scaled, scatter}
+#import asvgf::throughput::{Estimate, Throughput, add, scaled, scatter}
 #ifdef LIGHTS
 #import asvgf::light::sample_light
 #import asvgf::throughput::add_scattered
@@ -143,13 +143,13 @@ fn follows(s: Surface, next: vec3<f32>) -> bool {
 // Traces a path. With GLOSS its light is split by the lobe of the first surface: each direction is
 // sampled once, by the density of both lobes together, and weighted by the value of each lobe. So neither signal needs a path of its
 // own, and none misses a sample.
-fn path(first: Surface, seed: u32) -> Light {
+fn path(first: Surface, seed: u32) -> Estimate {
     var state = seed;
     var s = first;
     var is_first = true;
     var throughput: Throughput;
     throughput.all = vec3(1.0);
-    var light: Light;
+    var light: Estimate;
 #ifdef TRANSMISSION
     var body: Body;
     throughput.all = absorbed(body_before(s, body), distance(s.position, eye));
@@ -355,7 +355,7 @@ fn path(first: Surface, seed: u32) -> Light {
 
 #ifdef GLOSS
 // A path's specular light, and the inverse of the distance of what is reflected.
-fn of_lobe(light: Light) -> vec4<f32> {
+fn of_lobe(light: Estimate) -> vec4<f32> {
     return vec4(sanitize(light.specular), select(0.0, 1.0 / light.hit_distance, light.hit_distance > 0.0));
 }
 #endif

@@ -8,7 +8,7 @@
 #endif
 
 // One path's estimate of the radiance that the first surface sends towards the viewer.
-struct Light {
+struct Estimate {
     // All of it, or what the diffuse lobe reflects.
     diffuse: vec3<f32>,
 #ifdef GLOSS
@@ -52,7 +52,7 @@ fn scatter(throughput: Throughput, scattered: Scattering, is_first: bool) -> Thr
 }
 
 // Adds light that arrives at the end of a path.
-fn add(light: ptr<function, Light>, throughput: Throughput, arriving: vec3<f32>, weight: f32) {
+fn add(light: ptr<function, Estimate>, throughput: Throughput, arriving: vec3<f32>, weight: f32) {
 #ifdef GLOSS
     (*light).specular += throughput.specular * arriving * weight;
     (*light).diffuse += (throughput.all - throughput.specular) * arriving * weight;
@@ -62,7 +62,7 @@ fn add(light: ptr<function, Light>, throughput: Throughput, arriving: vec3<f32>,
 }
 
 // Adds light that arrives at a surface, and that the surface scatters along the path.
-fn add_scattered(light: ptr<function, Light>, throughput: Throughput, towards: Scattering, arriving: vec3<f32>, is_first: bool) {
+fn add_scattered(light: ptr<function, Estimate>, throughput: Throughput, towards: Scattering, arriving: vec3<f32>, is_first: bool) {
     let all = towards.value * arriving;
 #ifdef GLOSS
     // The direct light of the first surface is split by the lobes' values in this direction.
@@ -148,7 +148,7 @@ fn ways_behind(s: Surface, throughput: Throughput, before: Ways, scattered: Scat
 // Adds a light sample with its weight against scattered rays, and the part of it that glass lets through. `is_seen` tells that the narrow
 // lobes show the light to the camera, as emission.
 fn add_light_sample(
-    light: ptr<function, Light>, s: Surface, throughput: Throughput, ways: Ways, towards: Scattering,
+    light: ptr<function, Estimate>, s: Surface, throughput: Throughput, ways: Ways, towards: Scattering,
     arriving: vec3<f32>, weight: f32, has_area: bool, is_seen: bool, met_glass: bool, is_first: bool
 ) {
     let part = select(weight, 1.0, met_glass);

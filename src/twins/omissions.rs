@@ -155,6 +155,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "mirroring_facet",
         "narrow",
         "optical_depth",
+        "origin_towards",
         "other_side",
         "refracting_facet",
         "sample_glass",

@@ -107,7 +107,9 @@ fn a_paused_walk_stands_still() {
         for frame in 0..4 {
             let gpu = shaken.gpu;
             gpu.submit(|encoder| {
-                [&other, &pose].map(|pose| shaken.uploaded.update(&gpu.device, encoder, pose).unwrap());
+                for pose in [&other, &pose] {
+                    shaken.uploaded.update(&gpu.device, encoder, pose).unwrap();
+                }
             });
             assert!(left.frame_in(&pose).image() == shaken.frame_in(&pose).image(), "frame {frame}");
             assert!(left.view(View::Motion).iter().all(|m| m[0] == 0.0 && m[1] == 0.0), "frame {frame}");
