@@ -34,4 +34,18 @@ macro_rules! groups {
     };
 }
 
-groups!(radiance, samples, outliers, dynamics, geometry, deformation, gloss, mirrors, shapes, events, hostile, limits);
+groups!(
+    radiance,
+    samples,
+    outliers,
+    dynamics,
+    geometry,
+    deformation,
+    glass,
+    gloss,
+    mirrors,
+    shapes,
+    events,
+    hostile,
+    limits
+);

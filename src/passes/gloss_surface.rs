@@ -15,6 +15,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(NormalMaps),
         knows(VertexColors),
         knows(Specular),
+        knows(Transmission),
         knows(Gloss),
         knows(Objects),
     ]],

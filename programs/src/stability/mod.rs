@@ -21,6 +21,7 @@ const GROUPS: [(&str, &[cases::Case]); 13] = [
     ("Stiff dynamics", cases::dynamics::CASES),
     ("Geometry", cases::geometry::CASES),
     ("Skins and morph targets", cases::deformation::CASES),
+    ("Glass", cases::glass::CASES),
     ("Specular light", cases::gloss::CASES),
     ("Mirrors", cases::mirrors::CASES),
     ("Shapes of the image", cases::shapes::CASES),

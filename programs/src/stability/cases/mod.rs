@@ -5,6 +5,7 @@ pub mod dynamics;
 pub mod events;
 pub mod furnace;
 pub mod geometry;
+pub mod glass;
 pub mod gloss;
 pub mod hostile;
 pub mod limits;
