@@ -121,6 +121,13 @@ fn weights_of_nodes_without_targets_and_of_another_number_are_left_out() {
     let loaded = gltf.load().unwrap();
     assert_warnings(&loaded, &[("samplers[0].output", "2 values for 2 keys, where each has 2")]);
     assert_eq!(loaded.scene.animations[0].channels[1].values, [[1.0, 0.0, 0.0, 0.0]]);
+    let translations = gltf.floats("VEC3", &[0.0, 0.0, 0.0, 10.0, 0.0, 0.0]);
+    let instancing = json!({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": translations}}});
+    gltf.json["nodes"][0]["extensions"] = instancing;
+    assert_warnings(
+        &gltf.load().unwrap(),
+        &[("channels[0].target", "weights of EXT_mesh_gpu_instancing are not read")],
+    );
 }
 
 #[test]

@@ -173,7 +173,7 @@ fn instances(
             instances.push(instance);
             first_id += row_count;
         }
-        if let Some(mesh) = Deforming::of(drawn, geometry, &group, built, instances.len() - 1) {
+        if let Some(mesh) = Deforming::of(drawn, pose, geometry, (&group, built), instances.len() - 1) {
             deforming.push(mesh);
             first_corner += row_count;
         }
@@ -203,7 +203,7 @@ fn corner(texel: Texel) -> [f32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::description::{Light, LightKind, Node, builtin};
+    use crate::scene::description::{IDENTITY, Influence, Light, LightKind, Node, Skin, builtin};
     use wgpu::Limits;
 
     fn capacity(on_cpu: bool) -> Capacity {
@@ -242,6 +242,36 @@ mod tests {
         let analytic = arrangement.place_lights(&moved);
         assert!(arrangement.lights.table.iter().map(|light| light.pmf).eq(before));
         assert!(bytemuck::cast_slice::<_, u8>(&analytic) != bytemuck::cast_slice::<_, u8>(&assembly.analytic_lights));
+    }
+
+    #[test]
+    fn what_changes_its_shape_has_rows_of_its_own() {
+        let mut scene = builtin::scene("cornell", "static").unwrap();
+        let mesh = scene.nodes[0].meshes[0];
+        let vertices = scene.meshes[mesh].positions.len();
+        scene.meshes[mesh].influences = vec![Influence { joint: 0, weight: 1.0 }; vertices];
+        scene.skins.push(Skin { joints: vec![scene.nodes.len()], inverse_bind: vec![IDENTITY] });
+        scene.nodes[0].skin = Some(0);
+        scene.nodes.push(Node::default());
+        let still = Assembly::of(&scene, &capacity(false)).unwrap();
+        assert!(!still.contents.deforming && !still.contents.instanced && still.arrangement.corners().is_empty());
+        let triangles = still.triangles;
+        scene.nodes.last_mut().unwrap().movable = true;
+        let mut moving = Assembly::of(&scene, &capacity(false)).unwrap();
+        assert!(moving.contents.deforming && moving.contents.instanced && moving.triangles == triangles);
+        let (arrangement, rest) = (&mut moving.arrangement, scene.pose(None, 0.0));
+        assert_eq!(arrangement.corners().len(), scene.meshes[mesh].triangles.len());
+        assert!(arrangement.reshape(&rest).is_empty(), "the shape at rest is the first");
+        let mut pose = rest.clone();
+        pose.world.last_mut().unwrap()[3][0] = 1.0;
+        let (corners, reshaped) = (arrangement.corners(), arrangement.reshape(&pose));
+        assert_eq!((reshaped.len(), reshaped[0].rows.len()), (1, corners.len()));
+        for (now, before) in arrangement.corners().iter().flatten().zip(corners.iter().flatten()) {
+            assert!((now[0] - before[0] - 1.0).abs() < 1e-6 && now[1..] == before[1..], "{now:?}, {before:?}");
+        }
+        assert!(!arrangement.visible(&pose).is_shaped_as(&arrangement.visible(&rest)));
+        pose.weights[0].push(0.0);
+        assert_eq!(arrangement.check(&pose).unwrap_err().element, "lengths");
     }
 
     #[test]

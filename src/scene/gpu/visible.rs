@@ -8,8 +8,7 @@ use crate::scene::description::{Pose, WorldMatrix};
 pub(crate) struct Visible {
     placed: Vec<WorldMatrix>,
     /// Joints and weights of the meshes that change their shape.
-    joints: Vec<WorldMatrix>,
-    weights: Vec<Vec<f32>>,
+    shapes: Vec<(Vec<WorldMatrix>, Vec<f32>)>,
     emission: Vec<[f32; 3]>,
     intensity: Vec<[f32; 3]>,
 }
@@ -19,12 +18,11 @@ impl Visible {
     pub fn new<'a>(
         pose: &Pose,
         nodes: impl Iterator<Item = usize>,
-        shapes: impl Iterator<Item = &'a ShapeSource> + Clone,
+        shapes: impl Iterator<Item = &'a ShapeSource>,
     ) -> Self {
         Self {
             placed: nodes.map(|node| pose.world[node]).collect(),
-            joints: shapes.clone().flat_map(ShapeSource::joints).map(|joint| pose.world[joint]).collect(),
-            weights: shapes.map(|shape| pose.weights[shape.node].clone()).collect(),
+            shapes: shapes.map(|shape| shape.inputs(pose)).collect(),
             emission: pose.emission.clone(),
             intensity: pose.intensity.clone(),
         }
@@ -37,7 +35,7 @@ impl Visible {
 
     /// True if everything has the same shape.
     pub fn is_shaped_as(&self, other: &Self) -> bool {
-        self.joints == other.joints && self.weights == other.weights
+        self.shapes == other.shapes
     }
 
     /// True if all materials emit the same.

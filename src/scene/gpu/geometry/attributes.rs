@@ -43,21 +43,31 @@ impl Layout {
         layout
     }
 
-    /// Appends the words of a face. `tangents` are those of its mesh as it is, if it has a normal map.
-    pub fn push(&self, attributes: &mut Vec<u32>, posed: &Posed<'_>, tangents: Option<&Tangents>, face: &Face) {
+    /// Appends the words of a face. `tangents` are those of its mesh as it is, if it has a normal map. `normals` are words of each vertex,
+    /// if they are known.
+    pub fn push(
+        &self,
+        attributes: &mut Vec<u32>,
+        posed: &Posed<'_>,
+        (tangents, normals): (Option<&Tangents>, Option<&[u32]>),
+        face: &Face,
+    ) {
         let mesh = posed.mesh;
         let mirrored = face.placement.determinant() < 0.0;
         let in_order = |[a, b, c]: [_; 3]| if mirrored != posed.mirrored { [a, c, b] } else { [a, b, c] };
         let corners = in_order(mesh.triangles[face.triangle]);
         if self.normals {
             // Normals transform by the transpose of the inverse.
-            let map = face.placement.inverse().transpose().as_mat3();
-            // Images of normals need one to be relative to.
-            let flat = if tangents.is_some() { face.area_normal() } else { Vec3::ZERO };
-            for corner in corners {
-                let normal = posed.normals().get(corner as usize).map_or(flat, |&n| map * Vec3::from(n));
-                attributes.push(normal.try_normalize().map_or(0, pack_octahedral));
-            }
+            let words = match (normals, posed.normals()) {
+                // Images of normals need one to be relative to.
+                (_, []) => [if tangents.is_some() { normal_word(face.area_normal()) } else { 0 }; 3],
+                (Some(words), _) => corners.map(|corner| words[corner as usize]),
+                (None, of_mesh) => {
+                    let map = face.placement.inverse().transpose().as_mat3();
+                    corners.map(|corner| normal_word(map * Vec3::from(of_mesh[corner as usize])))
+                }
+            };
+            attributes.extend(words);
         }
         if self.tangents {
             let map = face.placement.as_mat3();
@@ -85,6 +95,11 @@ impl Layout {
             }
         }
     }
+}
+
+/// The word of a normal of any length: 0 if it has no direction.
+pub(crate) fn normal_word(normal: Vec3) -> u32 {
+    normal.try_normalize().map_or(0, pack_octahedral)
 }
 
 /// A unit vector as two 16-bit numbers on the unfolded octahedron. Never 0, which means no normal.

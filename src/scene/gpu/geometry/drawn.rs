@@ -1,6 +1,6 @@
 //! The meshes of a scene in the shapes in which nodes draw them at rest.
 
-use crate::scene::description::{Mesh, Node, Pose, Scene, Shape, Skin, shape};
+use crate::scene::description::{Mesh, Node, Pose, Scene, Shape, Skin, WorldMatrix, shape};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -31,8 +31,13 @@ impl ShapeSource {
         shape(mesh, &pose.weights[self.node], joints.as_deref())
     }
 
+    /// The joints and weights of a pose from which the shape follows.
+    pub fn inputs(&self, pose: &Pose) -> (Vec<WorldMatrix>, Vec<f32>) {
+        (self.joints().map(|joint| pose.world[joint]).collect(), pose.weights[self.node].clone())
+    }
+
     /// The nodes of the joints.
-    pub fn joints(&self) -> impl Iterator<Item = usize> {
+    fn joints(&self) -> impl Iterator<Item = usize> {
         self.skin.iter().flat_map(|skin| skin.joints.iter().copied())
     }
 }
@@ -120,4 +125,68 @@ fn lasting_weights(node: &Node, mesh: &Mesh) -> Vec<u32> {
     let weights = node.weights.iter().take(mesh.targets.len());
     let bits: Vec<u32> = weights.map(|weight| if *weight == 0.0 { 0 } else { weight.to_bits() }).collect();
     if bits.iter().all(|&bits| bits == 0) { Vec::new() } else { bits }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::description::{IDENTITY, Influence, Material, MorphTarget};
+
+    /// A mesh with two targets and one joint, which these nodes draw beside a joint.
+    fn scene(nodes: Vec<Node>) -> Scene {
+        let target = MorphTarget { vertices: vec![0], positions: vec![[1.0, 0.0, 0.0]], ..Default::default() };
+        let mesh = Mesh {
+            positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            triangles: vec![[0, 1, 2]],
+            targets: vec![target.clone(), target],
+            influences: vec![Influence { joint: 0, weight: 1.0 }; 3],
+            ..Default::default()
+        };
+        let draws = |node| Node { meshes: vec![0], ..node };
+        Scene {
+            meshes: vec![mesh],
+            materials: vec![Material::default()],
+            skins: vec![Skin { joints: vec![0], inverse_bind: vec![IDENTITY] }],
+            nodes: std::iter::once(Node::default()).chain(nodes.into_iter().map(draws)).collect(),
+            ..Default::default()
+        }
+    }
+
+    fn weighted(weights: &[f32]) -> Node {
+        Node { weights: weights.to_vec(), ..Default::default() }
+    }
+
+    /// The nodes of each shape, whether it differs from the mesh, and whether it follows the pose.
+    fn of(scene: &Scene) -> Vec<(Vec<usize>, bool, bool)> {
+        let shapes = drawn(scene, &scene.pose(None, 0.0)).into_iter();
+        shapes.map(|drawn| (drawn.nodes, drawn.shape.is_some(), drawn.source.is_some())).collect()
+    }
+
+    #[test]
+    fn nodes_share_a_mesh_in_one_shape() {
+        let nodes = [&[][..], &[0.0, 0.5], &[0.0, -0.0], &[0.0, 0.5], &[1.0]].map(weighted);
+        assert_eq!(
+            of(&scene(nodes.to_vec())),
+            [(vec![1, 3], false, false), (vec![2, 4], true, false), (vec![5], true, false)]
+        );
+    }
+
+    #[test]
+    fn meshes_follow_what_may_move() {
+        let skinned = Node { skin: Some(0), ..Default::default() };
+        let mut scene = scene(vec![Node { movable: true, ..Default::default() }, skinned, weighted(&[])]);
+        let still = [(vec![3], false, false), (vec![1], true, true), (vec![], true, false)];
+        assert_eq!(of(&scene), still, "weights of a node that the host moves, and a skin at rest");
+        scene.nodes[0].movable = true;
+        let moving = [(vec![3], false, false), (vec![1], true, true), (vec![], true, true)];
+        assert_eq!(of(&scene), moving, "a joint that the host moves");
+    }
+
+    #[test]
+    fn joints_that_mirror_keep_the_front() {
+        let mut scene = scene(vec![Node { skin: Some(0), ..Default::default() }]);
+        assert!(!drawn(&scene, &scene.pose(None, 0.0))[0].mirrored);
+        scene.skins[0].inverse_bind[0][0][0] = -1.0;
+        assert!(drawn(&scene, &scene.pose(None, 0.0))[0].mirrored);
+    }
 }

@@ -85,15 +85,21 @@ fn own_centre(posed: &Posed<'_>) -> DVec3 {
 /// of f32, so that areas and weights in shaders are finite.
 const FARTHEST: f64 = 1e9;
 
+/// A vertex of a mesh that changes its shape.
+pub(crate) fn limited(place: DVec3) -> Vec3 {
+    place.clamp(DVec3::splat(-FARTHEST), DVec3::splat(FARTHEST)).as_vec3()
+}
+
 /// The faces of a mesh with this number, relative to `centre`.
-pub(crate) fn faces(posed: &Posed<'_>, number: usize, world: DMat4, centre: DVec3) -> impl Iterator<Item = Face> {
+fn faces(posed: &Posed<'_>, number: usize, world: DMat4, centre: DVec3) -> impl Iterator<Item = Face> {
     let placement = DMat3::from_mat4(world);
     // A mirroring placement reverses the winding. It is reversed again here, so that the front stays the front.
     let mirrored = (placement.determinant() < 0.0) != posed.mirrored;
-    let limit = if posed.shape.is_some() { FARTHEST } else { f64::INFINITY };
     posed.mesh.triangles.iter().enumerate().map(move |(triangle, corners)| {
-        let place = |vertex| world.transform_point3(posed.position(vertex)) - centre;
-        let [a, b, c] = corners.map(|vertex| place(vertex).clamp(DVec3::splat(-limit), DVec3::splat(limit)).as_vec3());
+        let [a, b, c] = corners.map(|vertex| {
+            let place = world.transform_point3(posed.position(vertex)) - centre;
+            if posed.shape.is_some() { limited(place) } else { place.as_vec3() }
+        });
         let corners = if mirrored { [a, c, b] } else { [a, b, c] };
         Face { mesh: number, triangle, corners, placement }
     })

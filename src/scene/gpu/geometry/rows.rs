@@ -71,7 +71,7 @@ impl Geometry {
             }
             self.rows.push(row(face.corners, [material as u32, number]));
             let tangents = self.tangents[face.mesh].as_ref();
-            self.layout.push(&mut self.attributes, &posed, tangents, &face);
+            self.layout.push(&mut self.attributes, &posed, (tangents, None), &face);
         }
         self.nodes.extend(nodes);
         self.depth = self.depth.max(depth);

@@ -46,10 +46,11 @@ pub(crate) fn over_triangles(corners: &[[[f32; 3]; 3]], first_node: u32, first_r
     within(DEEPEST, &boxes, LEAF_TRIANGLES, || build(&all_unlike(&boxes), params), lay_out)
 }
 
-/// A tree of at most `deepest` levels over triangles, one in each leaf, whose rows are in the order of the triangles.
+/// A tree of at most `deepest` levels over triangles, one in each leaf, whose rows are in the order of the triangles. It is built while
+/// frames wait for it, in half the time of [`over_triangles`], and costs rays about 1 % more.
 pub(crate) fn over_rows(corners: &[[[f32; 3]; 3]], first_node: u32, first_row: u32, deepest: u32) -> Tree {
     let boxes = boxes_of(corners);
-    let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
+    let params = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::fast_build() };
     let lay_out = |bvh: &Bvh2| lay_out(bvh, boxes.len(), first_node, Leaves::Single(first_row));
     within(deepest, &boxes, 1, || build(&all_unlike(&boxes), params), lay_out)
 }

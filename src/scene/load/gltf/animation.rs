@@ -63,7 +63,14 @@ fn read_channel(
         Checked::Valid(Property::MorphTargetWeights) => {
             let count = scene.nodes.get(node).map_or(0, |node| scene.target_count(node));
             if count == 0 {
-                return Err(Fault::new(format!("{element}.target"), "the meshes of the node have no morph targets"));
+                let extensions = source.root.nodes[channel.target.node.value()].extensions.as_ref();
+                let repeats = extensions.is_some_and(|all| all.others.contains_key("EXT_mesh_gpu_instancing"));
+                let reason = if repeats {
+                    "animated weights of EXT_mesh_gpu_instancing are not read"
+                } else {
+                    "the meshes of the node have no morph targets"
+                };
+                return Err(Fault::new(format!("{element}.target"), reason));
             }
             ((0..count).map(|target| Target::Weight { node, target }).collect(), Type::Scalar)
         }
