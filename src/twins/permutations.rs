@@ -39,7 +39,7 @@ fn contents() -> Vec<SceneContents> {
         // Glass shines; images and colours are independent of it.
         .filter(|bits| bits >> 14 & 1 == 0 || bits >> 1 & 7 == 6 && bits >> 9 & 0b1_1011 == 0)
         // A mesh that changes its shape is an instance. It changes one function, so it is combined with a part of the rest.
-        .filter(|bits| bits >> 15 & 1 == 0 || bits & 1 == 1 && bits >> 5 & 15 == 15 && bits >> 10 & 31 == 0)
+        .filter(|bits| bits >> 15 & 1 == 0 || bits & 1 == 1 && bits >> 5 & 15 == 15 && bits >> 10 & 15 == 0)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
             SceneContents {
