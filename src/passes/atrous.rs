@@ -15,6 +15,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(FullKernel).unless(SmallKernel),
         knows(LocalLinearFit),
         knows(RidgeByNoise),
+        knows(Gloss),
         knows(SpecularSignal),
     ]],
     bindings: &[&[
