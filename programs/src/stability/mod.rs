@@ -14,7 +14,7 @@ use std::error::Error;
 use std::ffi::OsString;
 
 /// Groups, in the order of the table.
-const GROUPS: [(&str, &[cases::Case]); 13] = [
+const GROUPS: [(&str, &[cases::Case]); 14] = [
     ("Range of radiance", cases::radiance::CASES),
     ("Missing, infinite and repeated samples", cases::samples::CASES),
     ("Outliers", cases::outliers::CASES),
