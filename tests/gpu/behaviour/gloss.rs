@@ -1,9 +1,9 @@
 //! Specular light as a signal of its own: the sum of both signals is the light, and nothing that does not shine notices.
 
-use crate::common::scenes::{block, emitter, lambert, quad, scene};
+use crate::common::scenes::{block, emitter, glass, lambert, quad, scene};
 use crate::common::stage::Stage;
 use crate::common::statistics::{Estimate, Rgb, luminance, mean};
-use asvgf::scene::{Interior, Material, Scene, builtin};
+use asvgf::scene::{Material, Scene, builtin};
 use asvgf::{Camera, FilterSettings, Gradient, Mode, Settings, View};
 
 const SIZE: [u32; 2] = [40, 30];
@@ -43,19 +43,13 @@ fn both_signals_of_glass_together_are_the_light() {
 /// A shiny floor and a lamp, half of it behind frosted glass that a clear body touches.
 fn behind_glass() -> Scene {
     let shiny = Material { specular: [0.04; 3], roughness: 0.3, ..lambert([0.6, 0.4, 0.2]) };
-    let glass = |roughness: f32, transmission: f32, absorption: Option<[f32; 3]>| Material {
-        specular: [0.04; 3],
-        roughness,
-        transmission,
-        interior: Interior { index: 1.5, absorption },
-        ..lambert([0.9; 3])
-    };
+    let frosted = Material { transmission: 0.7, ..glass(1.5, 0.6, None) };
     let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
     let lamp = quad([-0.5, 1.5, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], 3);
     let pane = quad([-0.6, 0.0, 0.5], [0.6, 0.0, 0.0], [0.0, 1.0, 0.0], 1);
     let mut meshes = vec![floor, lamp, pane];
     meshes.extend(block([0.1, 0.1, -0.2], [0.7, 0.7, 0.4], 2));
-    let materials = vec![shiny, glass(0.6, 0.7, None), glass(0.0, 1.0, Some([0.2, 0.5, 1.0])), emitter([6.0; 3])];
+    let materials = vec![shiny, frosted, glass(1.5, 0.0, Some([0.2, 0.5, 1.0])), emitter([6.0; 3])];
     scene(materials, meshes)
 }
 

@@ -1,9 +1,9 @@
 //! What lies behind clear glass is filtered as if the glass were not there.
 
-use crate::common::scenes::{block, emitter, lambert, quad, scene};
+use crate::common::scenes::{block, emitter, glass, lambert, quad, scene};
 use crate::common::stage::Stage;
 use crate::common::statistics::relative_mse;
-use asvgf::scene::{Interior, Material, Mesh, Scene};
+use asvgf::scene::{Material, Mesh, Scene};
 use asvgf::{Camera, Mode, Settings, TracerSettings, View};
 
 const SIZE: [u32; 2] = [48, 36];
@@ -21,23 +21,11 @@ fn room() -> (Vec<Material>, Vec<Mesh>) {
     (materials, meshes)
 }
 
-/// Glass that mirrors as much as its index says.
-fn clear(index: f32, absorption: Option<[f32; 3]>) -> Material {
-    let root = (index - 1.0) / (index + 1.0);
-    Material {
-        roughness: 0.0,
-        specular: [root * root; 3],
-        transmission: 1.0,
-        interior: Interior { index, absorption },
-        ..lambert([1.0; 3])
-    }
-}
-
 /// The room behind a pane that fills the picture, or behind nothing.
-fn behind(glass: Option<Material>) -> Scene {
+fn behind(pane: Option<Material>) -> Scene {
     let (mut materials, mut meshes) = room();
-    if let Some(glass) = glass {
-        materials.push(glass);
+    if let Some(pane) = pane {
+        materials.push(pane);
         meshes.push(quad([-3.0, -0.99, 1.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], 3));
     }
     scene(materials, meshes)
@@ -55,7 +43,7 @@ fn stage(scene: Scene, mode: Mode) -> Stage {
 
 #[test]
 fn the_filter_is_given_what_lies_behind_a_pane() {
-    let mut stages = [None, Some(clear(1.5, None))].map(|glass| stage(behind(glass), Mode::Denoise));
+    let mut stages = [None, Some(glass(1.5, 0.0, None))].map(|pane| stage(behind(pane), Mode::Denoise));
     for frame in 0..3 {
         let mut frames = stages.each_mut().map(|stage| {
             stage.camera = Some(camera(frame));
@@ -75,13 +63,12 @@ fn the_filter_is_given_what_lies_behind_a_pane() {
 #[test]
 fn a_lamp_behind_glass_has_no_noise() {
     for absorption in [None, Some([0.0, 0.3, 1.0])] {
-        let glass = clear(1.5, absorption);
         let mut meshes = vec![quad([-3.0, -3.0, -1.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], 0)];
         match absorption {
             None => meshes.push(quad([-3.0, -3.0, 1.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0], 1)),
             Some(_) => meshes.extend(block([-3.0, -3.0, 0.5], [3.0, 3.0, 1.0], 1)),
         }
-        let mut stage = stage(scene(vec![emitter([2.0; 3]), glass], meshes), Mode::Denoise);
+        let mut stage = stage(scene(vec![emitter([2.0; 3]), glass(1.5, 0.0, absorption)], meshes), Mode::Denoise);
         stage.camera = Some(Camera { fov_y: 0.02, ..camera(0) });
         let emission = stage.frame().view(View::Emission);
         // Boundaries mirror 4 % each; the view at 0.1 rad makes ways a two-hundredth longer.
@@ -101,10 +88,10 @@ fn a_moving_camera_loses_nothing_behind_a_pane() {
     let mut truth = stage(behind(None), Mode::Reference);
     truth.camera = Some(camera(12));
     let reference = (0..512).map(|_| truth.frame().image()).last().unwrap();
-    let error = |glass: Option<Material>| {
+    let error = |pane: Option<Material>| {
         let of_seed = |seed| {
             let tracer = TracerSettings { seed, ..Default::default() };
-            let mut filtered = Stage::new(behind(glass.clone()), SIZE, Settings { tracer, ..Settings::adaptive() });
+            let mut filtered = Stage::new(behind(pane.clone()), SIZE, Settings { tracer, ..Settings::adaptive() });
             for frame in 0..12 {
                 filtered.camera = Some(camera(frame));
                 filtered.frame();
@@ -114,7 +101,7 @@ fn a_moving_camera_loses_nothing_behind_a_pane() {
         };
         (0..6).map(of_seed).sum::<f64>() / 6.0
     };
-    let [without, with] = [None, Some(clear(1.0, None))].map(error);
+    let [without, with] = [None, Some(glass(1.0, 0.0, None))].map(error);
     println!("error without a pane {without:.5}, behind one {with:.5}");
     assert!(with <= 1.2 * without, "{with} behind a pane, {without} without one");
 }

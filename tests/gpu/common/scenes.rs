@@ -1,7 +1,7 @@
 //! Small scenes made by hand.
 
 use asvgf::Camera;
-use asvgf::scene::{Light, LightKind, Material, Mesh, Node, Scene, Transform};
+use asvgf::scene::{Interior, Light, LightKind, Material, Mesh, Node, Scene, Transform};
 
 /// A parallelogram whose front looks along u × v.
 pub fn quad(corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: usize) -> Mesh {
@@ -33,6 +33,18 @@ pub fn block(low: [f32; 3], high: [f32; 3], material: usize) -> Vec<Mesh> {
 /// A Lambertian surface.
 pub fn lambert(color: [f32; 3]) -> Material {
     Material { base_color: [color[0], color[1], color[2], 1.0], ..Default::default() }
+}
+
+/// Clear glass that mirrors as much as its index says: a pane, or the skin of a body that absorbs.
+pub fn glass(index: f32, roughness: f32, absorption: Option<[f32; 3]>) -> Material {
+    let root = (index - 1.0) / (index + 1.0);
+    Material {
+        roughness,
+        specular: [root * root; 3],
+        transmission: 1.0,
+        interior: Interior { index, absorption },
+        ..lambert([1.0; 3])
+    }
 }
 
 /// A surface that emits light and reflects nothing.

@@ -1,21 +1,9 @@
 //! Glass against closed forms: furnaces, Snell, Fresnel, Beer–Lambert, and light that goes straight through it.
 
 use super::{ROUNDING, SAMPLINGS, SIZE, channel, from_above, images, tracer};
-use crate::common::scenes::{block, emitter, lambert, quad, scene, shine};
-use asvgf::scene::{Environment, Interior, LightKind, Material, Node, Scene};
+use crate::common::scenes::{block, emitter, glass, lambert, quad, scene, shine};
+use asvgf::scene::{Environment, LightKind, Material, Node, Scene};
 use asvgf::{Camera, Sampling};
-
-/// Clear glass with the reflectance of its index.
-fn glass(index: f32, roughness: f32, absorption: Option<[f32; 3]>) -> Material {
-    let root = (index - 1.0) / (index + 1.0);
-    Material {
-        roughness,
-        specular: [root * root; 3],
-        transmission: 1.0,
-        interior: Interior { index, absorption },
-        ..lambert([1.0; 3])
-    }
-}
 
 /// A plate of glass of this thickness below y = 0.
 fn plate(material: Material, thickness: f32) -> Scene {

@@ -1,10 +1,10 @@
 //! Glass at its limits.
 
 use super::{Breaks, Case, Worst, unusable};
-use crate::stability::common::scenes::{block, emitter, lambert, quad, scene};
+use crate::stability::common::scenes::{block, emitter, glass, lambert, quad, scene};
 use crate::stability::common::stage::Stage;
 use crate::stability::common::statistics::mean;
-use asvgf::scene::{Environment, GpuScene, Interior, Material, Mesh, Scene};
+use asvgf::scene::{Environment, GpuScene, Material, Mesh, Scene};
 use asvgf::{Camera, Mode, Sampling, Settings, TracerSettings};
 
 const SIZE: [u32; 2] = [16, 12];
@@ -32,17 +32,6 @@ pub const CASES: &[Case] = &[
         breaks: Breaks::Never("numbers outside of their ranges are refused by name"),
     },
 ];
-
-fn glass(index: f32, roughness: f32, absorption: Option<[f32; 3]>) -> Material {
-    let root = (index - 1.0) / (index + 1.0);
-    Material {
-        roughness,
-        specular: [root * root; 3],
-        transmission: 1.0,
-        interior: Interior { index, absorption },
-        ..lambert([1.0; 3])
-    }
-}
 
 fn pane(y: f32) -> Mesh {
     quad([-9.0, y, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0)
