@@ -209,7 +209,7 @@ impl Given {
         self.features.has(feature)
     }
 
-    fn object_at(&self, objects: &[u32], i: usize) -> u32 {
+    pub(super) fn object_at(&self, objects: &[u32], i: usize) -> u32 {
         if self.has(Feature::Objects) { objects[i] } else { 0 }
     }
 
@@ -255,7 +255,7 @@ impl Given {
     }
 
     /// Colour and mean luminance of a texel of the history.
-    fn stored(&self, q: usize) -> (V, f64) {
+    pub(super) fn stored(&self, q: usize) -> (V, f64) {
         let color = self.history[q].color;
         if self.has(Feature::Feedback) {
             (unpack_rgb([self.feedback[q][0], self.feedback[q][1]]), color[0])
@@ -289,13 +289,19 @@ impl Given {
         sum.mean()
     }
 
+    /// The surface's former place in the world.
+    pub(super) fn former_place(&self, i: usize, x: i32, y: i32) -> V {
+        let m = self.motion[i];
+        let [jx, jy] = self.bench.camera.jitter.map(|j| f64::from(j) + 0.5);
+        let was = Pinhole::new(&self.bench.previous, self.bench.size);
+        add(was.eye, scale(was.ray(f64::from(x) + m[0] + jx, f64::from(y) + m[1] + jy), m[2]))
+    }
+
     /// The four taps around the surface's former place; that place in the world and in the image, and its upper left pixel.
     fn bilinear(&self, i: usize, x: i32, y: i32, notes: &mut Notes) -> (Before, V, [f64; 2], [i32; 2]) {
         let m = self.motion[i];
-        let [jx, jy] = self.bench.camera.jitter.map(f64::from);
         let point = [f64::from(x) + m[0], f64::from(y) + m[1]];
-        let was = Pinhole::new(&self.bench.previous, self.bench.size);
-        let origin = add(was.eye, scale(was.ray(point[0] + 0.5 + jx, point[1] + 0.5 + jy), m[2]));
+        let origin = self.former_place(i, x, y);
         // A motion that is whole up to rounding errors stays on its pixel.
         let corner = point.map(|p| (p + 1e-4).floor());
         notes.unsure |= point.iter().any(|p| ((p + 1e-4) - (p + 1e-4).round()).abs() < 1e-5);

@@ -20,7 +20,9 @@ mod plane;
 mod random;
 mod traversal;
 
+mod agreement;
 mod atrous;
+mod clamp;
 mod gradient;
 mod gradient_means;
 mod gradient_sample;

@@ -18,7 +18,7 @@ fn kept(texel: Texel) -> Kept {
 }
 
 /// A pixel with a history, `offset` away on the same surface, and its weight.
-fn neighbour(
+pub(super) fn neighbour(
     bench: &Bench,
     guide: &[[u32; 2]],
     history: &[Texel],
