@@ -7,8 +7,7 @@ use gltf::json::animation::{self as json, Property, Sampler};
 use gltf::json::validation::Checked;
 
 use super::accessor::{Elements, REAL};
-use super::node::Places;
-use super::source::{Source, lookup};
+use super::source::{Places, Source, lookup};
 use crate::scene::description::{Animation, Channel, Interpolation, Scene, Target};
 use crate::scene::load::common::report::{Fault, Report};
 

@@ -1,20 +1,17 @@
 //! The node hierarchy of the default scene.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use gltf::json::{Index, Node as NodeSource};
 
 use super::instancing::instances;
 use super::mesh::Meshes;
 use super::skin::{Skins, check_influences};
-use super::source::{Source, lookup};
+use super::source::{Places, Source, lookup};
 use super::transform::{separate, transform};
 use super::{camera, light};
 use crate::scene::description::{Node, Scene};
 use crate::scene::load::common::report::Report;
-
-/// The index in [`Scene::nodes`] of each node of the file that is in the scene.
-pub(super) type Places = HashMap<usize, usize>;
 
 /// A node and its parent, if it has one.
 type Link = (Index<NodeSource>, Option<Index<NodeSource>>);

@@ -10,8 +10,7 @@ use gltf::json::{Index, Mesh as MeshSource, Skin as SkinSource};
 
 use super::accessor::{Elements, REAL};
 use super::attributes::Vertices;
-use super::node::Places;
-use super::source::Source;
+use super::source::{Places, Source};
 use super::transform::{separate, transform};
 use crate::scene::description::{Influence, Node, Scene, Skin};
 use crate::scene::load::common::report::{Fault, Report};

@@ -1,10 +1,15 @@
 //! The parts of an opened file.
 
+use std::collections::HashMap;
+
 use gltf::json::{Index, Root, buffer::View};
 
 use super::buffer::Buffer;
 use crate::scene::load::common::folder::Folder;
 use crate::scene::load::common::report::Fault;
+
+/// The index in [`Scene::nodes`](crate::scene::description::Scene::nodes) of each node of the file that is in the scene.
+pub(super) type Places = HashMap<usize, usize>;
 
 /// An opened file: its JSON, its bytes and its folder.
 pub(super) struct Source<'a> {
