@@ -351,22 +351,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     store(pixel, select(filtered, own_color, converged), select(deviation, sqrt(own_variance), converged), depth > 0.0);
 }
 
-#ifdef GLOSS
-// Least number that the spatial filter keeps where light is two signals: about the least one of `pack_unsigned` in full precision.
-const LEAST: f32 = 1e-9;
-#endif
-
 // Stores a pixel. A miss takes the same way as a surface: no pixel filters with it, and its result is not kept.
-fn store(pixel: vec2<i32>, filtered: vec3<f32>, spread: f32, seen: bool) {
-#ifdef GLOSS
-    // Failure: a CPU took a quarter longer for diffuse light beside metal. Reason: metal has no diffuse light, the last bit of the taps'
-    // weights leaves a 10¹⁰th of a wall's there, and it computes with denormal numbers slowly. Rule: such light is none.
-    let color = select(vec3(0.0), filtered, filtered >= vec3(LEAST));
-    let deviation = select(0.0, spread, spread >= LEAST);
-#else
-    let color = filtered;
-    let deviation = spread;
-#endif
+fn store(pixel: vec2<i32>, color: vec3<f32>, deviation: f32, seen: bool) {
     textureStore(color_out, pixel, vec4(select(vec2(0u), pack_tap(color, deviation), seen), 0u, 0u));
 #ifdef FEEDBACK
     textureStore(feedback_out, pixel, vec4(select(vec2(0u), pack_rgb(color), seen), 0u, 0u));

@@ -102,17 +102,17 @@ struct Around {
 fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, own: u32, exists: bool) -> Around {
     let here = seen_position(frame.camera, sample_point(frame.camera, vec2<f32>(pixel)), depth);
     // Normals are rounded, so neighbours must be a few hundredths of a radian apart in the image.
-    let spacing = 2 + i32(frame.size.x >> 9u);
+    let spacing = 1 + i32(frame.size.x >> 9u);
     var inverse = 0.0;
     var known = 0.0;
     var turned = 0.0;
     var apart = 0.0;
     var differences = 0.0;
-    let taps = select(0, 9, exists);
+    let taps = select(0, 25, exists);
     for (var i = 0; i < taps; i++) {
-        // (i·11) >> 5 is i / 3 for i < 9.
-        let row = (i * 11) >> 5u;
-        let tap = pixel + spacing * (vec2(i - 3 * row, row) - 1);
+        // (i·13) >> 6 is i / 5 for i < 25.
+        let row = (i * 13) >> 6u;
+        let tap = pixel + spacing * (vec2(i - 5 * row, row) - 2);
         let clamped = clamp(tap, vec2(0), vec2<i32>(frame.size) - 1);
         let g = guide_at(clamped);
         let n = unpack_normal(g.x);

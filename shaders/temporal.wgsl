@@ -116,9 +116,8 @@ fn steadiness(lambda: f32, ratio: f32, length: f32, motion: vec2<f32>) -> f32 {
 // e^(−d²).
 const SEARCH: i32 = 16;
 
-// The history at the place where the pixel's surface was, `moved` pixels away. If no surface lies under the taps, it is searched for
-// where `wanted`.
-fn reproject(pixel: vec2<i32>, moved: vec2<f32>, origin: Origin, wanted: bool) -> History {
+// The history at the place where the pixel's surface, or its reflection, was: `moved` pixels away.
+fn reproject(pixel: vec2<i32>, moved: vec2<f32>, origin: Origin, seen: bool) -> History {
     let point = vec2<f32>(pixel) + moved;
     var sum = bilinear_taps(origin, point);
     // The search is a loop of length 0 elsewhere, and not a branch, because a software adapter executes a branch either way.
@@ -129,7 +128,7 @@ fn reproject(pixel: vec2<i32>, moved: vec2<f32>, origin: Origin, wanted: bool) -
 #else
     let surface = sum.weight;
 #endif
-    let searched = select(0, SEARCH, wanted && surface <= LEAST_WEIGHT);
+    let searched = select(0, SEARCH, seen && surface <= LEAST_WEIGHT);
     if searched > 0 {
         sum = TapSum();
     }
@@ -147,10 +146,8 @@ fn reproject(pixel: vec2<i32>, moved: vec2<f32>, origin: Origin, wanted: bool) -
 #ifndef STILL
 // The history of the specular light, see specular_history.wgsl.
 fn reproject_gloss(pixel: vec2<i32>, m: vec3<f32>, origin: Origin, reflection: Reflection, depth: f32, seen: bool) -> History {
-    // Failure: the error was 3 % larger under a moving camera. Reason: a search finds what the mirror showed beside the place. Rule: no
-    // search for V, and one for S only where V does not exist.
-    let reflected = mean_of(bilinear_taps(in_mirror(origin), vec2<f32>(pixel) + reflection.motion));
-    let surface = reproject(pixel, m.xy, origin, seen && reflected.weight <= 0.0);
+    let surface = reproject(pixel, m.xy, origin, seen);
+    let reflected = reproject(pixel, reflection.motion, in_mirror(origin), seen);
     let width = lobe_width(reflection.roughness, reflection.hit_distance, depth);
     return combined(surface, reflected, weight_of(evidence_around(pixel, origin.normal)), reflection.motion, m.xy, width);
 }

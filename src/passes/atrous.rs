@@ -15,7 +15,6 @@ pub(crate) static PASS: Pass = Pass {
         knows(FullKernel).unless(SmallKernel),
         knows(LocalLinearFit),
         knows(RidgeByNoise),
-        knows(Gloss),
         knows(SpecularSignal),
     ]],
     bindings: &[&[

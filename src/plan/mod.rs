@@ -223,12 +223,9 @@ impl Plan {
         } else {
             filter.iterations
         };
-        // The footprint of specular light stops most of the far taps: with the nearest eight alone, errors change by less than 1 %
-        // (docs/filter.md).
-        let near = signal.has(Feature::SpecularSignal) && !signal.has(Feature::FullKernel);
-        let features = if near { signal.with(Feature::SmallKernel) } else { signal.without(Feature::SmallKernel) };
+        let wide = signal.without(Feature::SmallKernel);
         self.steps.extend((0..iterations).map(|i| {
-            let features = if i == 0 { features.with(Feature::FirstIteration) } else { features };
+            let features = if i == 0 { wide.with(Feature::FirstIteration) } else { wide };
             Step::nth(&atrous::PASS, features, Nth::iteration(i))
         }));
         if signal.has(Feature::SmallKernel) {

@@ -258,18 +258,17 @@ fn the_last_iteration_takes_the_nearest_taps() {
 #[test]
 fn the_stops_of_specular_light() {
     use Feature::*;
-    let sets: [&[Feature]; 4] = [
-        &[Gloss, SpecularSignal],
-        &[Gloss, SpecularSignal, LocalLinearFit, RidgeByNoise],
-        &[Gloss, SpecularSignal, SmallKernel, LocalLinearFit, RidgeByNoise],
-        &[Gloss, SpecularSignal, FullKernel, LocalLinearFit],
+    let sets: [&[Feature]; 3] = [
+        &[SpecularSignal],
+        &[SpecularSignal, LocalLinearFit, RidgeByNoise],
+        &[SpecularSignal, FullKernel, LocalLinearFit],
     ];
     for features in sets {
         for iteration in [0, 1, 3] {
             check(&Settings::adaptive(), features, iteration);
         }
     }
-    check(&Settings::classic(), &[Gloss, SpecularSignal, ClassicStops, FullKernel], 1);
+    check(&Settings::classic(), &[SpecularSignal, ClassicStops, FullKernel], 1);
 }
 
 #[test]
