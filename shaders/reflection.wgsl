@@ -90,6 +90,9 @@ const UNKNOWN_DISTANCE: f32 = 0.5;
 // less where surfaces meet.
 const ROUND: f32 = 0.8;
 
+// Distance from which on what is reflected counts as the sky: half of the tracer's, because stored distances are rounded.
+const SKY: f32 = 4e9;
+
 // Facts on a pixel's neighbourhood.
 struct Around {
     // Harmonic mean of the distances of what is reflected: near things move most.
@@ -124,10 +127,12 @@ fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, own: u32, exists: boo
         apart += select(0.0, dot(p, p), same);
         differences += select(0.0, dot(n - normal, n - normal), same);
         let told = same && there.hit_distance > 0.0;
-        inverse += select(0.0, 1.0 / there.hit_distance, told);
+        // The sky is at infinity in any unit of length.
+        inverse += select(0.0, 1.0 / there.hit_distance, told && there.hit_distance < SKY);
         known += select(0.0, 1.0, told);
     }
-    let distance = select(UNKNOWN_DISTANCE * scale_at(frame.camera, depth), known / inverse, known > 0.0);
+    let mean = select(SKY, known / inverse, inverse > 0.0);
+    let distance = select(UNKNOWN_DISTANCE * scale_at(frame.camera, depth), mean, known > 0.0);
     return Around(distance, select(0.0, turned / apart, apart > 0.0), turned * turned > ROUND * differences * apart);
 }
 
