@@ -3,6 +3,9 @@
 #import asvgf::frame::inside
 #import asvgf::color::{is_finite, luminance, sanitize}
 #import asvgf::gloss::pack_gloss
+#ifdef HIT_DISTANCE
+#import asvgf::ray::SKY
+#endif
 
 @group(0) @binding(1) var guide: texture_2d<u32>;
 #ifdef ROUGHNESS
@@ -37,9 +40,6 @@ const UNKNOWN_ROUGHNESS: f32 = 0.35;
 // Specular part of the reflectance of a surface of which none is known.
 const UNKNOWN_PART: f32 = 0.5;
 
-// Longest distance to what is reflected. Beyond, it is the sky.
-const FARTHEST: f32 = 8e9;
-
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
@@ -56,7 +56,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef HIT_DISTANCE
     // 0, negative and NaN say that it is unknown; +∞ is the sky. (A comparison with NaN is false.)
     let hit = textureLoad(hit_distance, pixel, 0).x;
-    distance = select(0.0, min(hit, FARTHEST), hit > 0.0);
+    distance = select(0.0, min(hit, SKY), hit > 0.0);
 #endif
     var shines = true;
     var part = UNKNOWN_PART;

@@ -23,6 +23,7 @@
 
 #import asvgf::frame::{frame, inside, is_orthographic, project, ray_direction, sample_point, scale_at, seen_position}
 #import asvgf::gloss::{pack_reflection, unpack_gloss}
+#import asvgf::ray::SKY
 #ifdef INSTANCED
 #ifndef STILL
 #import asvgf::packing::unpack_displacement
@@ -90,9 +91,6 @@ const UNKNOWN_DISTANCE: f32 = 0.5;
 // less where surfaces meet.
 const ROUND: f32 = 0.8;
 
-// Distance from which on what is reflected counts as the sky: half of the tracer's, because stored distances are rounded.
-const SKY: f32 = 4e9;
-
 // Facts on a pixel's neighbourhood.
 struct Around {
     // Harmonic mean of the distances of what is reflected: near things move most.
@@ -127,8 +125,8 @@ fn around(pixel: vec2<i32>, depth: f32, normal: vec3<f32>, own: u32, exists: boo
         apart += select(0.0, dot(p, p), same);
         differences += select(0.0, dot(n - normal, n - normal), same);
         let told = same && there.hit_distance > 0.0;
-        // The sky is at infinity in any unit of length.
-        inverse += select(0.0, 1.0 / there.hit_distance, told && there.hit_distance < SKY);
+        // The sky is at infinity in any unit of length. Its distance is rounded where it is stored.
+        inverse += select(0.0, 1.0 / there.hit_distance, told && there.hit_distance < 0.5 * SKY);
         known += select(0.0, 1.0, told);
     }
     let mean = select(SKY, known / inverse, inverse > 0.0);

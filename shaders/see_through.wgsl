@@ -12,11 +12,11 @@
 // The light of the other signal, which the first surface mirrors, belongs to the first surface, so images of that are kept beside.
 
 #import asvgf::frame::{frame, direction, project, sample_point, inside}
-#import asvgf::ray::Ray
+#import asvgf::ray::{Ray, SKY}
 #import asvgf::traverse::closest_hit
 #import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at, geometric_normal, shading_normal}
-#import asvgf::material::{LEAST_DEMODULATION, Surface, is_clear, demodulation, split, surface_at, whole_demodulation}
-#import asvgf::glass_path::{FARTHEST, Body, absorbed, body_before, enter, origin_towards}
+#import asvgf::material::{LEAST_DEMODULATION, is_clear, demodulation, lead, split, surface_at, whole_demodulation}
+#import asvgf::glass_path::{Body, absorbed, body_before, enter, origin_towards}
 #ifdef ENVIRONMENT_LIGHT
 #import asvgf::light::environment_radiance
 #endif
@@ -40,19 +40,6 @@
 
 // Boundaries behind each other through which the filter sees.
 const MOST_LAYERS: u32 = 8u;
-
-// Direction in which a ray leaves a boundary of glass: through it, or back beyond the critical angle.
-fn onwards(s: Surface, transmits: bool) -> vec3<f32> {
-    let cosine = dot(s.view, s.normal);
-    if !transmits {
-        return 2.0 * cosine * s.normal - s.view;
-    }
-    if s.thin {
-        return -s.view;
-    }
-    let refracted = sqrt(max(1.0 - s.ratio * s.ratio * (1.0 - cosine * cosine), 0.0));
-    return normalize((s.ratio * cosine - refracted) * s.normal - s.ratio * s.view);
-}
 
 @compute @workgroup_size(8, 8)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -85,13 +72,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         while is_clear(s) && layers < MOST_LAYERS {
             let part = split(s, max(dot(s.view, s.normal), 0.0));
             let transmits = any(part.transmitted > vec3(0.0));
-            let next = onwards(s, transmits);
+            let next = lead(s, !transmits);
             tint *= select(part.mirrored, part.transmitted, transmits);
             body = enter(body, s, next);
             let hit = closest_hit(Ray(origin_towards(s, next), next));
             if hit.triangle == NO_TRIANGLE {
 #ifdef ENVIRONMENT_LIGHT
-                emission += tint * absorbed(body, FARTHEST) * environment_radiance(next);
+                emission += tint * absorbed(body, SKY) * environment_radiance(next);
 #endif
                 albedo = around;
                 break;

@@ -7,7 +7,7 @@
 
 #import asvgf::frame::{frame, direction, sample_point, inside, Camera}
 #import asvgf::random::{seed_of, uniform_float}
-#import asvgf::ray::Ray
+#import asvgf::ray::{Ray, SKY}
 #ifdef FEW_TRIANGLES
 #import asvgf::few_triangles::{prepare_traversal, closest_hit, occluded}
 #else
@@ -121,9 +121,6 @@ fn mis_weight(chosen: f32, other: f32) -> f32 {
     return 1.0 - 1.0 / (1.0 + a * a);
 }
 
-// Farthest distance of what is reflected: the sky's.
-const FARTHEST: f32 = 8e9;
-
 #ifdef TRANSMISSION
 // Place of the camera that sees the first surface.
 var<private> eye: vec3<f32>;
@@ -140,9 +137,8 @@ fn follows(s: Surface, next: vec3<f32>) -> bool {
 }
 #endif
 
-// Traces a path. With GLOSS its light is split by the lobe of the first surface: each direction is
-// sampled once, by the density of both lobes together, and weighted by the value of each lobe. So neither signal needs a path of its
-// own, and none misses a sample.
+// Traces a path. With GLOSS its light is split by the lobe of the first surface: each direction is sampled once, by the density of both
+// lobes together, and weighted by the value of each lobe. So neither signal needs a path of its own, and none misses a sample.
 fn path(first: Surface, seed: u32) -> Estimate {
     var state = seed;
     var s = first;
@@ -257,7 +253,7 @@ fn path(first: Surface, seed: u32) -> Estimate {
         let hit = closest_hit(Ray(origin, next));
 #ifdef GLOSS
         if is_first && is_mirrored(s, lobe, next) {
-            light.hit_distance = select(hit.distance, FARTHEST, hit.triangle == NO_TRIANGLE);
+            light.hit_distance = select(hit.distance, SKY, hit.triangle == NO_TRIANGLE);
         }
 #endif
         if hit.triangle == NO_TRIANGLE {
@@ -268,7 +264,7 @@ fn path(first: Surface, seed: u32) -> Estimate {
             }
 #endif
 #ifdef TRANSMISSION
-            let from_sky = scaled(ways.direct, absorbed(body, FARTHEST));
+            let from_sky = scaled(ways.direct, absorbed(body, SKY));
 #else
             let from_sky = throughput;
 #endif
@@ -463,11 +459,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #ifdef ALPHA_BLEND
     var ray = Ray(frame.camera.eye, direction(frame.camera, sample_point(frame.camera, vec2<f32>(id.xy))));
 #endif
+#ifdef ALPHA_BLEND
+    var blended = start_of_path(s, ray, 0u).blended;
+#endif
 #ifdef SEE_THROUGH
     var behind = textureLoad(seen, pixel, 0);
     sees_through = any(unpack_rgb(behind.xy) > vec3(0.0));
 #ifdef ALPHA_BLEND
-    sees_through = sees_through && !start_of_path(s, ray, 0u).blended;
+    sees_through = sees_through && !blended;
 #endif
 #endif
 #ifndef LATER_PATHS
@@ -481,7 +480,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 #endif
 #ifdef ALPHA_BLEND
     // The light of blended surfaces comes from several of them, emission included.
-    if start_of_path(s, ray, 0u).blended {
+    if blended {
         albedo = blended_albedo(ray);
         emission = vec3(0.0);
     }
@@ -501,6 +500,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         s = visible_surface(then, frame.previous, vec2<f32>(q), true);
 #ifdef ALPHA_BLEND
         ray = Ray(frame.previous.eye, direction(frame.previous, sample_point(frame.previous, vec2<f32>(q))));
+        blended = start_of_path(s, ray, 0u).blended;
 #endif
 #ifdef TRANSMISSION
         eye = frame.previous.eye;
@@ -509,7 +509,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         behind = textureLoad(seen_previous, q, 0);
         sees_through = any(unpack_rgb(behind.xy) > vec3(0.0));
 #ifdef ALPHA_BLEND
-        sees_through = sees_through && !start_of_path(s, ray, 0u).blended;
+        sees_through = sees_through && !blended;
 #endif
 #endif
         seed_pixel = vec2<u32>(q);
@@ -537,7 +537,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var specular_modulation = specular_demodulation(s);
 #ifdef ALPHA_BLEND
     // The light of blended surfaces counts as diffuse.
-    if start_of_path(s, ray, 0u).blended {
+    if blended {
         specular_modulation = vec3(0.0);
     }
 #endif
@@ -551,7 +551,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
 #endif
 #ifdef ALPHA_BLEND
-        if start_of_path(s, ray, 0u).blended {
+        if blended {
             modulation = blended_albedo(ray);
         }
 #endif
@@ -598,7 +598,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let reflected = specular.xyz / (f32(frame.samples) * max(specular_modulation, vec3(LEAST_SPECULAR)));
     let packed = pack_rgb(min(reflected, vec3(BRIGHTEST)));
     let hit_distance = select(0.0, f32(frame.samples) / specular.w, specular.w > 0.0);
-    textureStore(specular_radiance_out, pixel, vec4(packed, bitcast<u32>(min(hit_distance, FARTHEST)), displacement));
+    textureStore(specular_radiance_out, pixel, vec4(packed, bitcast<u32>(min(hit_distance, SKY)), displacement));
 #endif
     textureStore(albedo_out, pixel, vec4(albedo, min(f32(rays), MOST_RAYS)));
     let demodulated = sum / (f32(frame.samples) * modulation);

@@ -50,9 +50,6 @@ fn absorbed(body: Body, length: f32) -> vec3<f32> {
     return exp(-body.absorption * length);
 }
 
-// Farthest distance: the sky's.
-const FARTHEST: f32 = 8e9;
-
 // Point at which a ray starts that leaves a surface in this direction.
 fn origin_towards(s: Surface, direction: vec3<f32>) -> vec3<f32> {
     return s.position + select(-s.margin, s.margin, dot(direction, s.geometric) > 0.0) * s.geometric;

@@ -346,23 +346,28 @@ fn glass_scattering(s: Surface, light: vec3<f32>) -> Scattering {
 fn sample_glass(s: Surface, u: vec2<f32>, choice: f32) -> vec3<f32> {
     let t = tangents(s.normal);
     let share = lambert_share(s);
-    var local = vec3(0.0);
     if choice < share {
         let r = sqrt(u.y);
-        local = vec3(r * cos(2.0 * PI * u.x), r * sin(2.0 * PI * u.x), sqrt(max(1.0 - u.y, 0.0)));
-    } else {
-        let v = local_view(s, t);
-        let m = sample_visible_normal(v, s.alpha, u);
-        let rest = (choice - share) / (1.0 - share);
-        local = leave(v, m, s.ratio, rest < split(s, dot(v, m)).mirrors, s.thin);
+        return to_world(s, t, vec3(r * cos(2.0 * PI * u.x), r * sin(2.0 * PI * u.x), sqrt(max(1.0 - u.y, 0.0))));
     }
-    var direction = normalize(t[0] * local.x + t[1] * local.y + s.normal * local.z);
-    // What the interpolated normal leads to the wrong side of the true surface is mirrored by that surface.
+    let v = local_view(s, t);
+    let m = sample_visible_normal(v, s.alpha, u);
+    let rest = (choice - share) / (1.0 - share);
+    return to_world(s, t, leave(v, m, s.ratio, rest < split(s, dot(v, m)).mirrors, s.thin));
+}
+
+// A direction in the space of the surface's normal. What the interpolated normal leads to the wrong side of the true surface is mirrored
+// by that surface.
+fn to_world(s: Surface, t: mat2x3<f32>, local: vec3<f32>) -> vec3<f32> {
+    let direction = normalize(t[0] * local.x + t[1] * local.y + s.normal * local.z);
     let side = dot(direction, s.geometric);
-    if (side > 0.0) != (local.z > 0.0) {
-        direction -= 2.0 * side * s.geometric;
-    }
-    return direction;
+    return select(direction, direction - 2.0 * side * s.geometric, (side > 0.0) != (local.z > 0.0));
+}
+
+// The direction in which a smooth boundary of glass leads a ray: through it, or back.
+fn lead(s: Surface, mirrors: bool) -> vec3<f32> {
+    let t = tangents(s.normal);
+    return to_world(s, t, leave(local_view(s, t), vec3(0.0, 0.0, 1.0), s.ratio, mirrors, s.thin));
 }
 #endif
 

@@ -17,5 +17,8 @@ struct Hit {
 // Stands for the distance of a miss.
 const MISS: f32 = 3.0e38;
 
+// Distance of the sky where a distance is stored.
+const SKY: f32 = 8e9;
+
 // Triangles reach a millionth over their edges, so that no ray falls between two that share one.
 const OVER_EDGE: f32 = 1e-6;

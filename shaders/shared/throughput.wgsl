@@ -46,7 +46,7 @@ fn scatter(throughput: Throughput, scattered: Scattering, is_first: bool) -> Thr
     result.all = throughput.all * (scattered.value / scattered.density);
 #ifdef GLOSS
     result.specular = select(
-        throughput.specular * scattered.value / scattered.density, scattered.specular / scattered.density, is_first);
+        throughput.specular * scattered.value / scattered.density, throughput.all * (scattered.specular / scattered.density), is_first);
 #endif
     return result;
 }
@@ -66,7 +66,7 @@ fn add_scattered(light: ptr<function, Estimate>, throughput: Throughput, towards
     let all = towards.value * arriving;
 #ifdef GLOSS
     // The direct light of the first surface is split by the lobes' values in this direction.
-    let part = select(throughput.specular * all, towards.specular * arriving, is_first);
+    let part = select(throughput.specular * all, throughput.all * (towards.specular * arriving), is_first);
     (*light).specular += part;
     (*light).diffuse += throughput.all * all - part;
 #else

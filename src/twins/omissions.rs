@@ -159,6 +159,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "straight_part",
         "straight_through",
         "sum",
+        "to_world",
         "visible_normals",
         "ways_behind",
     ];

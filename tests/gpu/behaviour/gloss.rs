@@ -33,11 +33,16 @@ fn both_signals_together_are_the_light() {
 
 #[test]
 fn both_signals_of_glass_together_are_the_light() {
-    assert_sum(|settings| {
-        let mut stage = Stage::new(behind_glass(), SIZE, settings);
-        stage.camera = Some(Camera { eye: [0.0, 1.0, 3.0], target: [0.0, 0.2, 0.0], fov_y: 0.8, ..Default::default() });
-        stage
-    });
+    let before = Camera { eye: [0.0, 1.0, 3.0], target: [0.0, 0.2, 0.0], fov_y: 0.8, ..Default::default() };
+    // Within the body that absorbs.
+    let inside = Camera { eye: [0.4, 0.4, 0.3], target: [0.2, 0.1, -0.2], fov_y: 1.2, ..Default::default() };
+    for camera in [before, inside] {
+        assert_sum(|settings| {
+            let mut stage = Stage::new(behind_glass(), SIZE, settings);
+            stage.camera = Some(camera);
+            stage
+        });
+    }
 }
 
 /// A shiny floor and a lamp, half of it behind frosted glass that a clear body touches.

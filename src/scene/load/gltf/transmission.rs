@@ -28,7 +28,6 @@ pub(super) fn apply(
         return material;
     };
     let user = format!("{element}.KHR_materials_transmission");
-    let absorption = extensions.volume.as_ref().and_then(|volume| absorption(volume, element, report));
     Material {
         transmission: report.clamp_unit(extension.transmission_factor.0, || format!("{user}.transmissionFactor")),
         transmission_texture: images.texture(
@@ -36,32 +35,32 @@ pub(super) fn apply(
             &format!("{user}.transmissionTexture"),
             report,
         ),
-        interior: Interior { index, absorption },
+        interior: interior(extensions.volume.as_ref(), index, element, report),
         ..material
     }
 }
 
-/// Absorption of a volume per unit of length: −ln(colour)/distance. `None` for a thickness of 0, which is a thin pane.
-fn absorption(volume: &Volume, element: &str, report: &mut Report) -> Option<[f32; 3]> {
+/// The inside of a volume that absorbs −ln(colour)/distance per unit of length, or a pane for a thickness of 0.
+fn interior(volume: Option<&Volume>, index: f32, element: &str, report: &mut Report) -> Interior {
+    let pane = Interior { index, absorption: None };
+    let Some(volume) = volume else { return pane };
     let user = format!("{element}.KHR_materials_volume");
     // The path tracer measures thickness itself. Whether there is any is all that counts.
     let thickness = volume.thickness_factor.0;
     if thickness == 0.0 {
-        return None;
+        return pane;
     }
     if thickness.is_nan() || thickness < 0.0 {
         report.warn(format!("{user}.thicknessFactor"), format!("{thickness} is not at least 0; 0 is used"));
-        return None;
+        return pane;
     }
     let distance = volume.attenuation_distance.0;
     if distance.is_nan() || distance <= 0.0 {
         let reason = format!("{distance} is not above 0; the volume absorbs nothing");
         report.warn(format!("{user}.attenuationDistance"), reason);
-        return Some([0.0; 3]);
+        return Interior { index, absorption: Some([0.0; 3]) };
     }
-    let color = volume
-        .attenuation_color
-        .0
-        .map(|channel| report.clamp_unit(channel, || format!("{user}.attenuationColor")).max(LEAST_COLOR));
-    Interior::absorbing(1.0, color, distance).absorption
+    let color = volume.attenuation_color.0;
+    let color = color.map(|channel| report.clamp_unit(channel, || format!("{user}.attenuationColor")).max(LEAST_COLOR));
+    Interior::absorbing(index, color, distance)
 }
