@@ -3,7 +3,8 @@
 
 #import asvgf::frame::{frame, direction, sample_point, inside}
 #import asvgf::gloss::pack_gloss
-#import asvgf::material::{specular_demodulation, surface_at}
+#import asvgf::demodulation::{seen_roughness, specular_demodulation}
+#import asvgf::material::surface_at
 #import asvgf::scene::NO_TRIANGLE
 #import asvgf::surface::{visible, triangle_now, barycentrics, at}
 
@@ -42,7 +43,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let s = surface_at(v, t, weights, at(t, weights) - frame.camera.eye);
         reflectance = specular_demodulation(s);
         let hit_distance = bitcast<f32>(textureLoad(specular_radiance, pixel, 0).z);
-        gloss = select(0u, pack_gloss(sqrt(s.alpha), hit_distance, 1.0), any(reflectance > vec3(0.0)));
+        gloss = select(0u, pack_gloss(seen_roughness(s), hit_distance, 1.0), any(reflectance > vec3(0.0)));
     }
     textureStore(specular_albedo_out, pixel, vec4(reflectance, 0.0));
     textureStore(gloss_out, pixel, vec4(gloss, object_at(pixel), 0u, 0u));

@@ -15,7 +15,9 @@
 #import asvgf::ray::{Ray, SKY}
 #import asvgf::traverse::closest_hit
 #import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at, geometric_normal, shading_normal}
-#import asvgf::material::{LEAST_DEMODULATION, is_clear, demodulation, lead, split, surface_at, whole_demodulation}
+#import asvgf::demodulation::{LEAST_DEMODULATION, demodulation, whole_demodulation}
+#import asvgf::glass_scattering::{is_clear, lead, split}
+#import asvgf::material::surface_at
 #import asvgf::glass_path::{Body, absorbed, body_before, enter, origin_towards}
 #ifdef ENVIRONMENT_LIGHT
 #import asvgf::light::environment_radiance
@@ -74,6 +76,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             let transmits = any(part.transmitted > vec3(0.0));
             let next = lead(s, !transmits);
             tint *= select(part.mirrored, part.transmitted, transmits);
+#ifdef CLEARCOAT
+            tint *= 1.0 - s.coat;
+#endif
             body = enter(body, s, next);
             let hit = closest_hit(Ray(origin_towards(s, next), next));
             if hit.triangle == NO_TRIANGLE {

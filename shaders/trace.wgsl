@@ -14,9 +14,12 @@
 #import asvgf::traverse::{closest_hit, occluded}
 #endif
 #import asvgf::surface::{Visible, visible, triangle_now, triangle_before, barycentrics, at}
-#import asvgf::material::{LEAST_DEMODULATION, Surface, surface_at, demodulation, scattering, sample_direction}
+#import asvgf::demodulation::{LEAST_DEMODULATION, demodulation}
+#import asvgf::material::{Surface, surface_at}
+#import asvgf::scattering::{scattering, sample_direction}
 #ifdef GLOSS
-#import asvgf::material::{LEAST_SPECULAR, specular_demodulation, is_mirrored}
+#import asvgf::demodulation::{LEAST_SPECULAR, specular_demodulation}
+#import asvgf::scattering::is_mirrored
 #ifdef INSTANCED
 #import asvgf::packing::pack_displacement
 #endif
@@ -29,9 +32,9 @@
 #endif
 #ifdef TRANSMISSION
 #import asvgf::glass_path::{MOST_BOUNDARIES, MOST_REFRACTIONS, Body, absorbed, body_before, enter, is_refracted, origin_towards, straight_through}
-#import asvgf::material::is_glass
+#import asvgf::glass_scattering::is_glass
 #ifdef SEE_THROUGH
-#import asvgf::material::{is_clear, split}
+#import asvgf::glass_scattering::{is_clear, split}
 #import asvgf::packing::unpack_rgb
 #endif
 #import asvgf::throughput::{Ways, ways_behind, add_light_sample}
@@ -41,7 +44,7 @@
 #import asvgf::color::{BRIGHTEST, luminance, sanitize}
 #import asvgf::packing::{pack_rgb, round_to_f16}
 #ifdef ALPHA_BLEND
-#import asvgf::material::whole_demodulation
+#import asvgf::demodulation::whole_demodulation
 #import asvgf::texture::{cover_at_random, cover_from, covered_at, is_blended}
 #endif
 #ifdef RESHADE

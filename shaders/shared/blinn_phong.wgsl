@@ -4,7 +4,8 @@
 #import asvgf::scene::NO_TRIANGLE
 #import asvgf::surface::{Visible, Triangle, visible, triangle_now, triangle_before, barycentrics, at}
 #import asvgf::ggx::PI
-#import asvgf::material::{Surface, surface_at, demodulation}
+#import asvgf::demodulation::demodulation
+#import asvgf::material::{Surface, surface_at}
 #import asvgf::color::luminance
 
 // The gradient function of Basci 2025: deferred shading with the Blinn–Phong model (Blinn 1977). It casts no ray and has no noise.

@@ -15,18 +15,7 @@
 // and a direction on the wrong side counts as its mirror image on the right one. So a microfacet's light is mirrored or refracted
 // completely, at any roughness and any index.
 
-#import asvgf::ggx::{distribution, smith}
-
-// A microfacet that leads light to the viewer: the density of the direction that it leads to, and the cosine v·h.
-struct Facet {
-    density: f32,
-    cosine: f32,
-}
-
-const NO_FACET = Facet(0.0, 1.0);
-
-// The least squared length of a vector that has a direction.
-const NO_DIRECTION: f32 = 1e-20;
+#import asvgf::ggx::{NO_DIRECTION, NO_FACET, Facet, mirroring_facet, other_side, visible_normals}
 
 // Fresnel's reflectance of a dielectric for unpolarised light.
 fn dielectric(cosine: f32, ratio: f32) -> f32 {
@@ -47,25 +36,6 @@ fn grazing_part(cosine: f32, ratio: f32) -> f32 {
     return clamp((dielectric(cosine, ratio) - normal) / (1.0 - normal), 0.0, 1.0);
 }
 
-// D_v: density of the normals that the viewer sees.
-fn visible_normals(view: vec3<f32>, half_vector: vec3<f32>, cosine: f32, alpha: f32) -> f32 {
-    return distribution(half_vector.z, alpha) * cosine / (view.z * (1.0 + smith(view.z, alpha)));
-}
-
-fn mirroring_facet(view: vec3<f32>, light: vec3<f32>, alpha: f32) -> Facet {
-    let sum = view + light;
-    let squared = dot(sum, sum);
-    if squared <= NO_DIRECTION || sum.z <= 0.0 {
-        return NO_FACET;
-    }
-    let half_vector = sum * inverseSqrt(squared);
-    let cosine = dot(view, half_vector);
-    if cosine <= 0.0 {
-        return NO_FACET;
-    }
-    return Facet(visible_normals(view, half_vector, cosine, alpha) / (4.0 * cosine), cosine);
-}
-
 fn refracting_facet(view: vec3<f32>, light: vec3<f32>, alpha: f32, ratio: f32) -> Facet {
     let sum = ratio * view + light;
     let squared = dot(sum, sum);
@@ -80,10 +50,6 @@ fn refracting_facet(view: vec3<f32>, light: vec3<f32>, alpha: f32, ratio: f32) -
     }
     let root = ratio * cosine + behind;
     return Facet(visible_normals(view, half_vector, cosine, alpha) * -behind / max(root * root, 1e-30), cosine);
-}
-
-fn other_side(direction: vec3<f32>) -> vec3<f32> {
-    return vec3(direction.xy, -direction.z);
 }
 
 // The two facets that lead light from this direction to the viewer: directly, and by way of the wrong side.

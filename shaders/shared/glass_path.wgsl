@@ -2,7 +2,12 @@
 
 // Paths through bodies of glass: how far they are refracted, and what bodies absorb of them.
 
-#import asvgf::material::{Scattering, Surface, is_glass, lambert_share}
+#import asvgf::bsdf::Scattering
+#import asvgf::glass_scattering::{is_glass, lambert_share}
+#import asvgf::material::Surface
+#ifdef CLEARCOAT
+#import asvgf::clearcoat::choice_below
+#endif
 
 // Boundaries of glass at which a path may be refracted or mirrored. At further ones it goes straight, so that light which is caught
 // inside a body is not lost.
@@ -22,7 +27,11 @@ struct Body {
 
 // True if a path that was sampled with this choice left a surface of glass by another lobe than Lambert's.
 fn is_refracted(s: Surface, choice: f32) -> bool {
+#ifdef CLEARCOAT
+    return is_glass(s) && choice_below(s, choice) >= lambert_share(s);
+#else
     return is_glass(s) && choice >= lambert_share(s);
+#endif
 }
 
 // The body in which a path goes on from a surface.

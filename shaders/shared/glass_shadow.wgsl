@@ -7,7 +7,8 @@
 //
 // Rays meet boundaries in any order, so lengths are sums: a ray that enters at t₁ and leaves at t₂ has σ·t₂ − σ·t₁ of optical depth.
 
-#import asvgf::material::{is_glass, surface_at, straight_part}
+#import asvgf::glass_scattering::{is_glass, straight_part}
+#import asvgf::material::surface_at
 #import asvgf::scene::{geometry_word, load_material, TRANSMITTING}
 #import asvgf::surface::{Visible, triangle_now}
 

@@ -7,7 +7,7 @@
 // Light is scattered about this normal. The filter's G-buffer has the interpolated one, because its stops would part the slopes of a
 // relief, and its planes would not be those of the surface (docs/filter.md).
 
-#import asvgf::scene::{scene, attributes, Material, load_normal_map, object_to_world, transform_vector, instance_numbers, NORMAL_MAPPED}
+#import asvgf::scene::{scene, attributes, Material, TextureUse, load_normal_map, object_to_world, transform_vector, instance_numbers, NORMAL_MAPPED}
 #import asvgf::surface::{Visible, interpolated_normal, shading_normal}
 #import asvgf::texture::sample_texture
 #import asvgf::packing::octahedral
@@ -40,11 +40,20 @@ fn tangent_at(v: Visible, weights: vec2<f32>, first: u32) -> vec4<f32> {
 // Squared length up to which a vector has no direction.
 const NO_DIRECTION: f32 = 1e-20;
 
-// The normal of the material's image, on the side from which light is seen; the interpolated normal if there is no image or no tangent.
+// The normal of the material's image, on the side from which light is seen; the interpolated normal if there is none.
 fn mapped_normal(v: Visible, m: Material, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
+    if (m.flags & NORMAL_MAPPED) == 0u {
+        return shading_normal(v, weights, geometric);
+    }
+    let map = load_normal_map(m);
+    return normal_from(map.texture, map.scale, v, weights, geometric);
+}
+
+// The normal of an image; the interpolated normal if there is no tangent.
+fn normal_from(image: TextureUse, scale: f32, v: Visible, weights: vec2<f32>, geometric: vec3<f32>) -> vec3<f32> {
     let shading = shading_normal(v, weights, geometric);
     let first = v.row * scene.attribute_stride + TANGENTS;
-    if (m.flags & NORMAL_MAPPED) == 0u || attributes[first] == 0u {
+    if attributes[first] == 0u {
         return shading;
     }
     let tangent = tangent_at(v, weights, first);
@@ -56,9 +65,8 @@ fn mapped_normal(v: Visible, m: Material, weights: vec2<f32>, geometric: vec3<f3
     let side = select(1.0, -1.0, dot(interpolated_normal(v, weights), shading) < 0.0);
     let normal = side * shading;
     let t = tangent.xyz * inverseSqrt(squared);
-    let map = load_normal_map(m);
-    let texel = sample_texture(map.texture, v.row, weights, false).xyz * 2.0 - 1.0;
-    let flat = texel.xy * map.scale;
+    let texel = sample_texture(image, v.row, weights, false).xyz * 2.0 - 1.0;
+    let flat = texel.xy * scale;
     // No texel points into the surface.
     let mapped = flat.x * t + flat.y * tangent.w * cross(normal, t) + max(texel.z, 0.0) * normal;
     let length = dot(mapped, mapped);

@@ -82,7 +82,7 @@ struct Material {
     base_color: vec4<f32>,
     emissive: vec3<f32>,
     // Bit 0: emits from both faces. Bit 1: unlit. Bit 2: has no back faces. Bit 3: blended, covers as much as its opacity. Bit 4: has a
-    // normal map. Bit 5: transmits light.
+    // normal map. Bit 5: transmits light. Bit 6: has a clear coat.
     flags: u32,
     metallic: f32,
     roughness: f32,
@@ -92,7 +92,7 @@ struct Material {
     specular_edge: f32,
     // Reflectance of the dielectric coat at normal incidence.
     specular: vec3<f32>,
-    // Texel of `materials` at which the parts begin that few materials have: a normal map, then a glass.
+    // Texel of `materials` at which the parts begin that few materials have: a normal map, then a glass, then a clear coat.
     extension: u32,
     base_color_texture: TextureUse,
     metallic_roughness_texture: TextureUse,
@@ -109,6 +109,7 @@ const CULLED: u32 = 4u;
 const BLENDED: u32 = 8u;
 const NORMAL_MAPPED: u32 = 16u;
 const TRANSMITTING: u32 = 32u;
+const COATED: u32 = 64u;
 
 #ifdef NORMAL_MAPS
 struct NormalMap {
@@ -118,8 +119,9 @@ struct NormalMap {
 }
 #endif
 
-// Texels of a normal map.
+// Texels of a normal map, and of a glass.
 const NORMAL_MAP_TEXELS: u32 = 4u;
+const GLASS_TEXELS: u32 = 5u;
 
 #ifdef TRANSMISSION
 struct Glass {
@@ -133,6 +135,22 @@ struct Glass {
     index: f32,
     // 1 for the skin of a body, 0 for a pane without thickness.
     solid: u32,
+}
+#endif
+
+#ifdef CLEARCOAT
+struct Coat {
+    // Its red channel multiplies `weight`.
+    weight_texture: TextureUse,
+    // Its green channel multiplies `roughness`.
+    roughness_texture: TextureUse,
+    normal_texture: TextureUse,
+    // Part of the surface that is coated.
+    weight: f32,
+    // Perceptual roughness.
+    roughness: f32,
+    // Factor on the first two coordinates of normals.
+    normal_scale: f32,
 }
 #endif
 
@@ -221,6 +239,16 @@ fn load_glass(m: Material) -> Glass {
     let numbers = bitcast<vec4<f32>>(material_word(first + 3u));
     let body = material_word(first + 4u);
     return Glass(texture_use(first), numbers.xyz, numbers.w, bitcast<f32>(body.x), body.y);
+}
+#endif
+
+#ifdef CLEARCOAT
+// The coat of a material that has one.
+fn load_coat(m: Material) -> Coat {
+    let glass = m.extension + select(0u, NORMAL_MAP_TEXELS, (m.flags & NORMAL_MAPPED) != 0u);
+    let first = glass + select(0u, GLASS_TEXELS, (m.flags & TRANSMITTING) != 0u);
+    let numbers = bitcast<vec4<f32>>(material_word(first + 9u));
+    return Coat(texture_use(first), texture_use(first + 3u), texture_use(first + 6u), numbers.x, numbers.y, numbers.z);
 }
 #endif
 

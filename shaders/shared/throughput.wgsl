@@ -2,9 +2,10 @@
 
 // The light that a path has found, and the part of further light that would reach the viewer.
 
-#import asvgf::material::Scattering
+#import asvgf::bsdf::Scattering
 #ifdef TRANSMISSION
-#import asvgf::material::{Surface, is_glass}
+#import asvgf::glass_scattering::is_glass
+#import asvgf::material::Surface
 #endif
 
 // One path's estimate of the radiance that the first surface sends towards the viewer.

@@ -54,6 +54,16 @@ const SHARED: &[(&str, &str)] = &[
     #[cfg(feature = "path-tracer")]
     ("material", include_str!("../../shaders/shared/material.wgsl")),
     #[cfg(feature = "path-tracer")]
+    ("demodulation", include_str!("../../shaders/shared/demodulation.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("bsdf", include_str!("../../shaders/shared/bsdf.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("glass_scattering", include_str!("../../shaders/shared/glass_scattering.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("clearcoat", include_str!("../../shaders/shared/clearcoat.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("scattering", include_str!("../../shaders/shared/scattering.wgsl")),
+    #[cfg(feature = "path-tracer")]
     ("throughput", include_str!("../../shaders/shared/throughput.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("glass_path", include_str!("../../shaders/shared/glass_path.wgsl")),

@@ -39,6 +39,8 @@ features! {
     Specular,
     /// Light goes through surfaces, refracted or straight.
     Transmission,
+    /// A second GGX lobe above the others.
+    Clearcoat,
     /// The filter follows the surfaces behind clear glass.
     SeeThrough,
     /// Test of the opacity and of the facing during traversal.

@@ -16,6 +16,7 @@ pub(crate) static PASS: Pass = Pass {
         knows(VertexColors),
         knows(Specular),
         knows(Transmission),
+        knows(Clearcoat),
         knows(Gloss),
         knows(Objects),
     ]],

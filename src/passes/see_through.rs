@@ -7,7 +7,10 @@ pub(crate) static PASS: Pass = Pass {
     name: "see_through",
     source: include_str!("../../shaders/see_through.wgsl"),
     grid: Pixels,
-    features: &[shared::GEOMETRY, &[knows(Specular), knows(Transmission), knows(EnvironmentLight), knows(Gloss)]],
+    features: &[
+        shared::GEOMETRY,
+        &[knows(Specular), knows(Transmission), knows(Clearcoat), knows(EnvironmentLight), knows(Gloss)],
+    ],
     bindings: &[&[
         now("visibility", Image::Visibility),
         now("first_guide", Image::Guide).of_first(),

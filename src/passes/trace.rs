@@ -12,6 +12,7 @@ pub(crate) static PASS: Pass = Pass {
         &[
             knows(Specular),
             knows(Transmission),
+            knows(Clearcoat),
             knows(SeeThrough),
             knows(Lights),
             knows(Emitters),

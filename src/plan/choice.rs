@@ -67,6 +67,11 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
             ["light goes through a material", "no light goes through a material: nothing is refracted"],
         ),
         (
+            Clearcoat,
+            contents.clearcoat,
+            ["a material has a clear coat", "no material has a clear coat: one GGX lobe at most"],
+        ),
+        (
             SeeThrough,
             contents.clear_glass,
             ["a glass may be clear: the filter follows what lies behind it", "no glass is clear"],

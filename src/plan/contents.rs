@@ -21,7 +21,9 @@ pub struct SceneContents {
     pub specular: bool,
     /// Light goes through some surface, refracted or straight.
     pub transmission: bool,
-    /// Some of these surfaces are smooth, so that they show what lies behind them.
+    /// Some surface has a clear coat.
+    pub clearcoat: bool,
+    /// Some of the surfaces that light goes through are smooth, so that they show what lies behind them.
     pub clear_glass: bool,
     /// No surface is glossy, although shaders could show one, see [`SceneContents::everything`]: light is one signal.
     pub matte: bool,

@@ -19,6 +19,7 @@ const ALL: SceneContents = SceneContents {
     vertex_colors: true,
     specular: true,
     transmission: true,
+    clearcoat: true,
     clear_glass: true,
     matte: false,
     alpha_mask: true,
@@ -114,7 +115,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     let mut opacity = [&blending[..], &["is_hole", "meets_back", "opacity_at"]].concat();
     opacity.sort_unstable();
     let sky = &["environment", "environment_density", "environment_table", "environment_texel", "texel_radiance"][..];
-    let maps = ["load_normal_map", "mapped_normal", "tangent_at", "unpack_tangent"];
+    let maps = ["load_normal_map", "mapped_normal", "normal_from", "tangent_at", "unpack_tangent"];
     let mut images = [&maps[..], images].concat();
     images.sort_unstable();
     let normals = ["interpolated_normal", "octahedral", "transform_normal", "unpack_octahedral"];
@@ -142,14 +143,11 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "lambert_share",
         "leave",
         "load_glass",
-        "local_view",
         "matte",
         "met_glass",
-        "mirroring_facet",
         "narrow",
         "optical_depth",
         "origin_towards",
-        "other_side",
         "refracting_facet",
         "sample_glass",
         "seen",
@@ -159,36 +157,43 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "straight_part",
         "straight_through",
         "sum",
-        "to_world",
-        "visible_normals",
         "ways_behind",
     ];
+    let coat = ["choice_below", "coat_density", "coat_share", "coated", "load_coat", "sample_coat"];
     let mut shine = [
         &glass[..],
+        &coat[..],
         &[
+            "diffuse_reflectance",
             "distribution",
             "fresnel",
             "is_mirrored",
+            "mirroring_facet",
             "of_lobe",
+            "other_side",
             "pack_displacement",
             "reflecting_normal",
             "sample_visible_normal",
+            "seen_from",
             "smith",
             "specular_demodulation",
             "specular_radiance_out",
             "specular_share",
+            "to_world",
+            "visible_normals",
         ],
     ]
     .concat();
     shine.sort_unstable();
-    let cases: [(SceneContents, &[&str]); 14] = [
+    let cases: [(SceneContents, &[&str]); 15] = [
         (SceneContents { instanced: false, deforming: false, ..ALL }, &moving),
         (SceneContents { deforming: false, ..ALL }, &shapes),
         (SceneContents { textures: false, normal_maps: false, ..ALL }, &images),
         (SceneContents { shading_normals: false, normal_maps: false, ..ALL }, &normals),
         (SceneContents { normal_maps: false, ..ALL }, &maps),
         (SceneContents { vertex_colors: false, ..ALL }, &["corner_color", "vertex_color"]),
-        (SceneContents { specular: false, transmission: false, clear_glass: false, ..ALL }, &shine),
+        (SceneContents { specular: false, transmission: false, clear_glass: false, clearcoat: false, ..ALL }, &shine),
+        (SceneContents { clearcoat: false, ..ALL }, &coat),
         (SceneContents { transmission: false, clear_glass: false, ..ALL }, &glass),
         (
             SceneContents { clear_glass: false, ..ALL },

@@ -25,7 +25,7 @@ fn noop_device() -> (Device, Queue) {
 
 /// All combinations of contents. The test checks some 150 shaders a second, and all in a quarter of a minute.
 fn contents() -> Vec<SceneContents> {
-    (0_u32..1 << 16)
+    (0_u32..1 << 17)
         // Only images may be folded. Folding changes one function, so it is combined with a part of the rest.
         .filter(|bits| bits >> 12 & 1 == 0 || bits >> 1 & 1 == 1 && bits & 0b1101_0110_0000 == 0)
         // There is no alpha mask if each triangle is tested.
@@ -40,6 +40,8 @@ fn contents() -> Vec<SceneContents> {
         .filter(|bits| bits >> 14 & 1 == 0 || bits >> 1 & 7 == 6 && bits >> 9 & 0b1_1011 == 0)
         // A mesh that changes its shape is an instance. It changes one function, so it is combined with a part of the rest.
         .filter(|bits| bits >> 15 & 1 == 0 || bits & 1 == 1 && bits >> 5 & 15 == 15 && bits >> 10 & 15 == 0)
+        // A coat shines; it depends on images, normal maps and glass alone.
+        .filter(|bits| bits >> 16 & 1 == 0 || bits >> 2 & 3 == 3 && bits >> 5 & 15 == 15 && bits >> 9 & 0b100_1111 == 0)
         .map(|bits| {
             let bit = |i: u32| bits >> i & 1 == 1;
             SceneContents {
@@ -60,6 +62,7 @@ fn contents() -> Vec<SceneContents> {
                 transmission: bit(14),
                 clear_glass: bit(14) && bit(5),
                 deforming: bit(15),
+                clearcoat: bit(16),
                 ..Default::default()
             }
         })

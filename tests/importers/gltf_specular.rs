@@ -1,6 +1,7 @@
-//! Dielectrics: KHR_materials_ior, KHR_materials_transmission, KHR_materials_volume, KHR_materials_specular, KHR_materials_pbrSpecularGlossiness.
+//! Dielectrics: KHR_materials_clearcoat, KHR_materials_ior, KHR_materials_transmission, KHR_materials_volume, KHR_materials_specular,
+//! KHR_materials_pbrSpecularGlossiness.
 
-use asvgf::scene::{Alpha, Interior, Material, Scene};
+use asvgf::scene::{Alpha, Clearcoat, Interior, Material, Scene};
 use serde_json::{Value, json};
 
 use crate::common::*;
@@ -114,4 +115,41 @@ fn glass_that_is_wrong_costs_itself() {
     let mirror = json!({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 0}});
     let mirror = material(mirror);
     assert_eq!((mirror.specular, mirror.interior.index), ([1.0; 3], Interior::MOST_INDEX));
+}
+
+#[test]
+fn every_field_of_a_clear_coat() {
+    let plain = material(json!({"KHR_materials_clearcoat": {}}));
+    assert_eq!(plain.clearcoat, Clearcoat::default(), "a coat without a weight is none");
+    let texture =
+        json!({"index": 0, "texCoord": 1, "extensions": {"KHR_texture_transform": {"scale": [2, 3], "texCoord": 0}}});
+    let normals = json!({"index": 0, "scale": 0.5});
+    let full = material(json!({"KHR_materials_clearcoat": {
+        "clearcoatFactor": 0.75, "clearcoatTexture": texture, "clearcoatRoughnessFactor": 0.25,
+        "clearcoatRoughnessTexture": {"index": 0}, "clearcoatNormalTexture": normals,
+    }}));
+    let coat = full.clearcoat;
+    assert_eq!((coat.weight, coat.roughness, coat.normal_scale), (0.75, 0.25, 0.5));
+    let weights = coat.weight_texture.unwrap();
+    assert_eq!((weights.uv_set, weights.transform[0][0], weights.transform[1][1]), (0, 2.0, 3.0));
+    assert!(coat.roughness_texture.is_some() && coat.normal_texture.is_some());
+    let old = json!({"KHR_materials_pbrSpecularGlossiness": {}, "KHR_materials_clearcoat": {"clearcoatFactor": 1}});
+    assert_eq!(material(old).clearcoat.weight, 1.0);
+}
+
+#[test]
+fn a_clear_coat_that_is_wrong_costs_itself() {
+    let coat = |fields: Value| json!({"KHR_materials_clearcoat": fields});
+    let of =
+        |fields: Value, element: &str, reason: &str| scene(coat(fields), &[(element, reason)]).materials[0].clearcoat;
+    assert_eq!(of(json!({"clearcoatFactor": 7}), "clearcoat.clearcoatFactor", "7 is outside 0…1").weight, 1.0);
+    let rough = json!({"clearcoatFactor": 1, "clearcoatRoughnessFactor": -1});
+    assert_eq!(of(rough, "clearcoatRoughnessFactor", "-1 is outside 0…1").roughness, 0.0);
+    let text = of(json!({"clearcoatFactor": "much"}), "KHR_materials_clearcoat", "the surface has no coat");
+    assert_eq!(text, Clearcoat::default());
+    let missing = json!({"clearcoatFactor": 1, "clearcoatTexture": {"index": 9}});
+    let missing = of(missing, "clearcoatTexture", "9");
+    assert_eq!((missing.weight, missing.weight_texture), (1.0, None));
+    let scale = json!({"clearcoatFactor": 1, "clearcoatNormalTexture": {"index": 0, "scale": 1e39}});
+    assert_eq!(of(scale, "clearcoatNormalTexture", "1").weight, 1.0);
 }

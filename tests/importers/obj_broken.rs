@@ -33,7 +33,7 @@ const MTL_BREAKS: &[(&str, &[&str])] = &[
         "Kd 0.5 0.5 0.5",
         &["Kd", "Kd 0.5 0.5", "Kd nan 0 0", "Kd x", "Kd 7 7 7", "Kd -1 0 0", "Kd spectral a.rfl", "Kx 1"],
     ),
-    ("Ks 0.1 0.1 0.1", &["Ks", "Ks 1 1", "Ks inf 0 0", "Ks 5 0 0", "bump a.png", "Pc 1"]),
+    ("Ks 0.1 0.1 0.1", &["Ks", "Ks 1 1", "Ks inf 0 0", "Ks 5 0 0", "bump a.png", "Ps 1"]),
     ("Ns 30", &["Ns", "Ns x", "Ns nan", "Ns 1e99"]),
     ("illum 2", &["illum 77", "illum x", "illum 7", "illum"]),
     ("d 1", &["d x", "d", "d nan", "d 0", "d 2"]),

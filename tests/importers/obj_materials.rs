@@ -104,11 +104,21 @@ fn illumination_models() {
 }
 
 #[test]
+fn clear_coats() {
+    let loaded = material("Pc 0.5\nPcr 0.25\n");
+    assert_warnings(&loaded, &[]);
+    let coat = loaded.scene.materials[0].clearcoat;
+    assert_eq!((coat.weight, coat.roughness), (0.5, 0.25));
+    assert_eq!(material("Pcr 0.25\n").scene.materials[0].clearcoat.weight, 0.0);
+    assert_warnings(&material("Pc 2\n"), &[("material \"m\"", "2 is outside 0…1")]);
+}
+
+#[test]
 fn keywords_that_are_not_read_are_named_once() {
     let text = "Ka 1 1 1\nNi 1\nsharpness 60\nPs 0.0\nPc 0\naniso 0.000\nPcr 0.03\nanisor 0\nmap_Ka a.png\n\
-                disp d\ndecal e\nrefl f\nmap_Ns g\nmap_Tr h\nPs 1\nPc 0.5\naniso 1\nsurprise\n";
+                disp d\ndecal e\nrefl f\nmap_Ns g\nmap_Tr h\nPs 1\nmap_Pc i\naniso 1\nsurprise\n";
     let loaded = material(&format!("{text}newmtl n\n{text}"));
-    let named = ["disp", "decal", "refl", "map_Ns", "map_Tr", "Ps", "Pc", "aniso"];
+    let named = ["disp", "decal", "refl", "map_Ns", "map_Tr", "Ps", "map_Pc", "aniso"];
     let mut expected: Vec<_> = named.iter().map(|keyword| ("test.mtl line", format!("{keyword}: "))).collect();
     expected.push(("test.mtl line 19", "\"surprise\" is not known".into()));
     let expected: Vec<_> = expected.iter().map(|(element, reason)| (*element, reason.as_str())).collect();

@@ -75,6 +75,16 @@ fn surface(material: &Material, scene: &Scene) -> String {
         };
         parts.push(format!("transmits {:.2}{map}, index {index:.2}, {form}", material.transmission));
     }
+    let coat = &material.clearcoat;
+    if coat.weight > 0.0 {
+        let (weight, roughness) = (texture(coat.weight_texture), texture(coat.roughness_texture));
+        let normals =
+            coat.normal_texture.map_or(String::new(), |_| ", normal map".to_owned() + &texture(coat.normal_texture));
+        parts.push(format!(
+            "clear coat {:.2}{weight}, roughness {:.2}{roughness}{normals}",
+            coat.weight, coat.roughness
+        ));
+    }
     if material.emissive != [0.0; 3] {
         let [r, g, b] = material.emissive;
         parts.push(format!("emits {r:.3} {g:.3} {b:.3}{}", texture(material.emissive_texture)));

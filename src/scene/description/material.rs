@@ -48,6 +48,8 @@ pub struct Material {
     pub transmission_texture: Option<Texture>,
     /// The inside of a surface that transmits light.
     pub interior: Interior,
+    /// The clear coat over all of this.
+    pub clearcoat: Clearcoat,
     /// True if back faces are invisible to the camera and to light, as in a rasterizer that culls them. Outlines made of hulls need
     /// this.
     pub culled: bool,
@@ -77,6 +79,7 @@ impl Default for Material {
             transmission: 0.0,
             transmission_texture: None,
             interior: Interior::default(),
+            clearcoat: Clearcoat::default(),
             culled: false,
         }
     }
@@ -86,6 +89,17 @@ impl Material {
     /// True if the material's triangles are lights.
     pub(crate) fn is_emitter(&self) -> bool {
         !self.unlit && self.emissive.iter().any(|&e| e > 0.0)
+    }
+
+    /// True if the surface has a clear coat.
+    pub(crate) fn is_coated(&self) -> bool {
+        !self.unlit && self.clearcoat.weight > 0.0
+    }
+
+    /// True if the surface has a specular lobe. Glass mirrors at grazing incidence, whatever its reflectance is.
+    pub(crate) fn mirrors(&self) -> bool {
+        let metallic = !self.unlit && (self.specular != [0.0; 3] || self.metallic > 0.0);
+        metallic || self.transmits() || self.is_coated()
     }
 
     /// True if light goes through the surface.
@@ -98,6 +112,12 @@ impl Material {
         self.transmits() && (self.roughness <= 0.2 || self.metallic_roughness_texture.is_some())
     }
 
+    /// The normal map of the surface, and that of its coat.
+    pub(crate) fn normal_maps(&self) -> impl Iterator<Item = Texture> {
+        let of_coat = self.clearcoat.normal_texture.filter(|_| self.is_coated());
+        self.normal_texture.into_iter().chain(of_coat)
+    }
+
     /// All textures in use, each with the name of its field.
     pub(crate) fn textures(&self) -> impl Iterator<Item = (&'static str, Texture)> {
         [
@@ -108,6 +128,9 @@ impl Material {
             ("specular_texture", self.specular_texture),
             ("specular_color_texture", self.specular_color_texture),
             ("transmission_texture", self.transmission_texture),
+            ("clearcoat.weight_texture", self.clearcoat.weight_texture),
+            ("clearcoat.roughness_texture", self.clearcoat.roughness_texture),
+            ("clearcoat.normal_texture", self.clearcoat.normal_texture),
         ]
         .into_iter()
         .filter_map(|(name, texture)| Some((name, texture?)))
@@ -139,6 +162,37 @@ impl Default for Interior {
     /// A pane of window glass.
     fn default() -> Self {
         Self { index: 1.5, absorption: None }
+    }
+}
+
+/// A clear layer over a surface, as varnish (KHR_materials_clearcoat). Its index of refraction is 1.5.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearcoat {
+    /// Part of the surface that is coated, 0…1; multiplies the red channel of the texture.
+    pub weight: f32,
+    /// Red = weight (linear).
+    pub weight_texture: Option<Texture>,
+    /// Perceptual roughness 0…1; multiplies the green channel of the texture.
+    pub roughness: f32,
+    /// Green = roughness (linear).
+    pub roughness_texture: Option<Texture>,
+    /// Normals of the coat, as [`Material::normal_texture`] has them of the surface below. Without them the coat is as smooth as the mesh.
+    pub normal_texture: Option<Texture>,
+    /// Factor on the first two coordinates of these normals.
+    pub normal_scale: f32,
+}
+
+impl Default for Clearcoat {
+    /// No coat.
+    fn default() -> Self {
+        Self {
+            weight: 0.0,
+            weight_texture: None,
+            roughness: 0.0,
+            roughness_texture: None,
+            normal_texture: None,
+            normal_scale: 1.0,
+        }
     }
 }
 

@@ -25,7 +25,7 @@ pub use animation::{Animation, Channel, Interpolation, Target};
 pub use camera::Perspective;
 pub use deformation::{Influence, MorphTarget, Skin};
 pub use light::{Environment, Light, LightKind};
-pub use material::{Alpha, Interior, Material};
+pub use material::{Alpha, Clearcoat, Interior, Material};
 pub use mesh::Mesh;
 pub use node::{IDENTITY, Matrix, Node, Transform, WorldMatrix};
 pub use pose::Pose;

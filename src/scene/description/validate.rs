@@ -123,8 +123,13 @@ impl Scene {
             unit(channel, || format!("{element}.specular"))?;
         }
         unit(material.specular_edge, || format!("{element}.specular_edge"))?;
-        let scale = material.normal_scale;
-        rule(scale.is_finite(), || format!("{element}.normal_scale"), || format!("{scale} is not finite"))?;
+        unit(material.clearcoat.weight, || format!("{element}.clearcoat.weight"))?;
+        unit(material.clearcoat.roughness, || format!("{element}.clearcoat.roughness"))?;
+        for (name, scale) in
+            [("normal_scale", material.normal_scale), ("clearcoat.normal_scale", material.clearcoat.normal_scale)]
+        {
+            rule(scale.is_finite(), || format!("{element}.{name}"), || format!("{scale} is not finite"))?;
+        }
         unit(material.transmission, || format!("{element}.transmission"))?;
         let Interior { index, absorption } = material.interior;
         rule(

@@ -18,11 +18,11 @@ pub(crate) fn contents(scene: &Scene, layout: Layout) -> SceneContents {
     SceneContents {
         textures: used().any(|m| m.textures().next().is_some()),
         shading_normals: layout.normals,
-        normal_maps: layout.tangents && used().any(|m| m.normal_texture.is_some()),
+        normal_maps: layout.tangents && used().any(|m| m.normal_maps().next().is_some()),
         vertex_colors: layout.color.is_some(),
-        // Glass mirrors at grazing incidence, whatever its reflectance is.
-        specular: used().any(|m| !m.unlit && (m.specular != [0.0; 3] || m.metallic > 0.0) || m.transmits()),
+        specular: used().any(Material::mirrors),
         transmission: used().any(Material::transmits),
+        clearcoat: used().any(Material::is_coated),
         clear_glass: used().any(Material::is_clear),
         alpha_blend: used().any(|m| m.alpha == Alpha::Blend),
         alpha_mask: used().any(|m| m.alpha != Alpha::Opaque || m.culled),

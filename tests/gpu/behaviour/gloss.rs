@@ -3,7 +3,7 @@
 use crate::common::scenes::{block, emitter, glass, lambert, quad, scene};
 use crate::common::stage::Stage;
 use crate::common::statistics::{Estimate, Rgb, luminance, mean};
-use asvgf::scene::{Material, Scene, builtin};
+use asvgf::scene::{Clearcoat, Material, Scene, builtin};
 use asvgf::{Camera, FilterSettings, Gradient, Mode, Settings, View};
 
 const SIZE: [u32; 2] = [40, 30];
@@ -43,6 +43,20 @@ fn both_signals_of_glass_together_are_the_light() {
             stage
         });
     }
+}
+
+#[test]
+fn both_signals_of_a_coat_together_are_the_light() {
+    let camera = Camera { eye: [0.0, 1.0, 3.0], target: [0.0, 0.2, 0.0], fov_y: 0.8, ..Default::default() };
+    assert_sum(|settings| {
+        let mut scene = behind_glass();
+        for (material, roughness) in scene.materials.iter_mut().zip([0.0, 0.2, 0.5, 0.1]) {
+            material.clearcoat = Clearcoat { weight: 0.9, roughness, ..Default::default() };
+        }
+        let mut stage = Stage::new(scene, SIZE, settings);
+        stage.camera = Some(camera);
+        stage
+    });
 }
 
 /// A shiny floor and a lamp, half of it behind frosted glass that a clear body touches.

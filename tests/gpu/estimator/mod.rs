@@ -2,6 +2,7 @@
 
 mod agreement;
 mod area;
+mod clearcoat;
 mod furnace;
 mod glass;
 mod large;

@@ -9,9 +9,9 @@ use glam::{Vec3, Vec4};
 /// The tangents of each triangle's corners: a direction, and ±1 for the bitangent `w · normal × tangent`. A direction of 0 is none.
 pub(crate) type Tangents = Vec<[Vec4; 3]>;
 
-/// The normal map of a mesh, if the mesh has the coordinates for it.
+/// The normal map that tells a mesh's tangents, if the mesh has the coordinates for it.
 pub(crate) fn mapped(mesh: &Mesh, material: &Material) -> Option<Texture> {
-    material.normal_texture.filter(|texture| !mesh.uvs[texture.uv_set].is_empty())
+    material.normal_maps().find(|texture| !mesh.uvs[texture.uv_set].is_empty())
 }
 
 /// The tangents of a mesh that has a normal map.

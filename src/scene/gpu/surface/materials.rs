@@ -2,7 +2,7 @@
 
 use super::places::Place;
 use super::texture_use::{GpuTexture, texture_use};
-use crate::scene::description::{Alpha, Interior, Material};
+use crate::scene::description::{Alpha, Clearcoat, Interior, Material};
 use crate::scene::gpu::memory::folded::{Texel, texels};
 use bytemuck::{Pod, Zeroable};
 
@@ -47,11 +47,27 @@ pub(crate) struct GpuGlass {
     pad: [u32; 2],
 }
 
+/// `Coat` of scene.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+pub(crate) struct GpuCoat {
+    weight_texture: GpuTexture,
+    roughness_texture: GpuTexture,
+    normal_texture: GpuTexture,
+    weight: f32,
+    roughness: f32,
+    normal_scale: f32,
+    pad: u32,
+}
+
 /// Bit of `flags` of a material whose extension has a normal map.
 const NORMAL_MAP: u32 = 1 << 4;
 
 /// Bit of `flags` of a material whose extension has a glass.
 const GLASS: u32 = 1 << 5;
+
+/// Bit of `flags` of a material whose extension has a clear coat.
+const COATED: u32 = 1 << 6;
 
 /// Least index of refraction. At 1 the normal of a facet that refracts is not defined; here light bends by a thousandth.
 const LEAST_INDEX: f32 = 1.001;
@@ -79,6 +95,10 @@ pub(crate) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &
             record.flags |= GLASS;
             extensions.extend_from_slice(texels(&[glass(m, images)]));
         }
+        if m.is_coated() {
+            record.flags |= COATED;
+            extensions.extend_from_slice(texels(&[coat(&m.clearcoat, images)]));
+        }
         records.push(record);
     }
     let mut all = texels(&records).to_vec();
@@ -87,8 +107,24 @@ pub(crate) fn materials(materials: &[Material], emission: &[[f32; 3]], images: &
 }
 
 fn normal_map(material: &Material, images: &[Place]) -> GpuNormalMap {
-    let scale = material.normal_scale.clamp(-MOST_SCALE, MOST_SCALE);
+    let scale = bounded(material.normal_scale);
     GpuNormalMap { texture: texture_use(material.normal_texture, images), scale, pad: [0; 3] }
+}
+
+fn bounded(scale: f32) -> f32 {
+    scale.clamp(-MOST_SCALE, MOST_SCALE)
+}
+
+fn coat(coat: &Clearcoat, images: &[Place]) -> GpuCoat {
+    GpuCoat {
+        weight_texture: texture_use(coat.weight_texture, images),
+        roughness_texture: texture_use(coat.roughness_texture, images),
+        normal_texture: texture_use(coat.normal_texture, images),
+        weight: coat.weight,
+        roughness: coat.roughness,
+        normal_scale: bounded(coat.normal_scale),
+        pad: 0,
+    }
 }
 
 fn glass(material: &Material, images: &[Place]) -> GpuGlass {
@@ -150,6 +186,8 @@ mod tests {
         assert_layout_with(&features, "NormalMap", map, size_of::<GpuNormalMap>());
         let glass = fields!(GpuGlass: texture, absorption, transmission, index, solid);
         assert_layout_with(&[Feature::Transmission, Feature::Specular], "Glass", glass, size_of::<GpuGlass>());
+        let coat = fields!(GpuCoat: weight_texture, roughness_texture, normal_texture, weight, roughness, normal_scale);
+        assert_layout_with(&[Feature::Clearcoat, Feature::Specular], "Coat", coat, size_of::<GpuCoat>());
     }
 
     #[test]

@@ -12,10 +12,11 @@ use crate::scene::load::common::recognise::foreign;
 use crate::scene::load::common::report::{Fault, Report};
 
 /// The extensions that are honoured.
-const READ: [&str; 12] = [
+const READ: [&str; 13] = [
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
     "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_pbrSpecularGlossiness",

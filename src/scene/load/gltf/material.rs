@@ -1,17 +1,16 @@
 //! Metallic-roughness materials.
 
-use gltf::json::extensions::texture::{Info as InfoExtensions, TextureTransform};
+use gltf::json::Material as MaterialSource;
 use gltf::json::material::AlphaMode;
-use gltf::json::texture::Info;
 use gltf::json::validation::Checked;
-use gltf::json::{Extras, Material as MaterialSource};
-use serde::Deserialize;
 
+use super::clearcoat;
 use super::glossiness;
 use super::image::Images;
+use super::normal_map;
 use super::source::Source;
 use super::transmission;
-use crate::scene::description::{Alpha, Interior, Material, Scene, Texture};
+use crate::scene::description::{Alpha, Interior, Material, Scene};
 use crate::scene::load::common::report::Report;
 
 /// Index of refraction of the dielectrics of glTF 2.0, unless KHR_materials_ior gives another.
@@ -44,7 +43,8 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
     if source.occlusion_texture.is_some() {
         report.warn_once(element, "occlusion maps are not read; the path tracer finds occlusion itself");
     }
-    let (normal_texture, normal_scale) = normal_map(source, element, images, report);
+    let normals = source.normal_texture.as_ref();
+    let (normal_texture, normal_scale) = normal_map::read(normals, &format!("{element}.normalTexture"), images, report);
     let emissive_texture = images.texture(&source.emissive_texture, &format!("{element}.emissiveTexture"), report);
     let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
     let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
@@ -61,7 +61,7 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
         unlit: extensions.is_some_and(|extensions| extensions.unlit.is_some()),
         ..Material::default()
     };
-    match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
+    let material = match extensions.and_then(|extensions| extensions.pbr_specular_glossiness.as_ref()) {
         Some(extension) => {
             if extensions.is_some_and(|extensions| extensions.transmission.is_some()) {
                 let reason = "is not read beside KHR_materials_pbrSpecularGlossiness; the surface is opaque";
@@ -74,35 +74,8 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
             let index = ior(source).unwrap_or(IOR).clamp(1.0, Interior::MOST_INDEX);
             transmission::apply(source, material, index, element, images, report)
         }
-    }
-}
-
-/// The normal map and its scale.
-fn normal_map(
-    source: &MaterialSource,
-    element: &str,
-    images: &mut Images,
-    report: &mut Report,
-) -> (Option<Texture>, f32) {
-    let Some(map) = &source.normal_texture else { return (None, 1.0) };
-    let user = format!("{element}.normalTexture");
-    let mut info = Info { index: map.index, tex_coord: map.tex_coord, extensions: None, extras: Extras::default() };
-    // The JSON reader knows this extension in other textures only.
-    let transform = map.extensions.as_ref().and_then(|extensions| extensions.others.get("KHR_texture_transform"));
-    if let Some(transform) = transform {
-        match TextureTransform::deserialize(transform) {
-            Ok(transform) => {
-                info.extensions = Some(InfoExtensions { texture_transform: Some(transform), ..Default::default() });
-            }
-            Err(error) => report.warn(format!("{user}.KHR_texture_transform"), format!("{error}; it is left out")),
-        }
-    }
-    let texture = images.texture(&Some(info), &user, report);
-    if map.scale.is_finite() {
-        return (texture, map.scale);
-    }
-    report.warn(format!("{user}.scale"), format!("{} is not finite; 1 is used", map.scale));
-    (texture, 1.0)
+    };
+    clearcoat::apply(source, material, element, images, report)
 }
 
 fn metallic_roughness(

@@ -18,7 +18,7 @@ use super::map::{Channel, Map};
 use super::source::{Source, Texture as Kind};
 use super::text::shortened;
 use super::textures::{Raw, Textures};
-use crate::scene::description::{Alpha, Interior, Material, Texture};
+use crate::scene::description::{Alpha, Clearcoat, Interior, Material, Texture};
 use crate::scene::load::common::report::Report;
 
 /// Index of refraction of most dielectrics.
@@ -124,7 +124,13 @@ impl Source {
             specular_color_texture: specular_map.filter(|_| !metal).map(|(raw, map)| textures.plain(raw, map)),
             ..Material::default()
         };
-        self.transmission(model, material, element, report)
+        let clearcoat = self.clearcoat(element, report);
+        self.transmission(model, Material { clearcoat, ..material }, element, report)
+    }
+
+    fn clearcoat(&self, element: &str, report: &mut Report) -> Clearcoat {
+        let mut unit = |value: Option<f32>| report.clamp_unit(value.unwrap_or(0.0), || element.to_owned());
+        Clearcoat { weight: unit(self.coat), roughness: unit(self.coat_roughness), ..Clearcoat::default() }
     }
 
     fn model(&self, element: &str, report: &mut Report) -> Model {

@@ -24,6 +24,10 @@ pub(super) struct Source {
     pub illumination: Option<f32>,
     pub roughness: Option<f32>,
     pub metallic: Option<f32>,
+    /// Weight of the clear coat, `Pc`.
+    pub coat: Option<f32>,
+    /// Roughness of the clear coat, `Pcr`.
+    pub coat_roughness: Option<f32>,
     /// The textures, by their keywords.
     pub maps: HashMap<Texture, Map>,
 }
@@ -106,7 +110,7 @@ impl Reader<'_> {
             "map_tr" | "map_tf" => "maps of the transparency other than map_d are",
             "decal" => "decals are",
             "ps" | "map_ps" => "sheen is",
-            "pc" | "map_pc" => "clear coat is",
+            "map_pc" | "map_pcr" => "maps of the clear coat are",
             "aniso" => "anisotropy is",
             _ => {
                 self.unknown += 1;
@@ -140,6 +144,8 @@ impl Source {
             "illum" => self.illumination = Some(one(values, commas)?),
             "pr" => self.roughness = Some(one(values, commas)?),
             "pm" => self.metallic = Some(one(values, commas)?),
+            "pc" => self.coat = Some(one(values, commas)?),
+            "pcr" => self.coat_roughness = Some(one(values, commas)?),
             "map_kd" => map(Texture::Diffuse, commas)?,
             "map_ks" => map(Texture::Specular, commas)?,
             "map_ke" => map(Texture::Emissive, commas)?,
@@ -149,9 +155,9 @@ impl Source {
             "norm" | "map_norm" | "map_kn" => map(Texture::Normal, commas)?,
             "bump" | "map_bump" => map(Texture::Bump, commas)?,
             // The path tracer computes ambient light itself. The others are about filtering, or about statements that are not read.
-            "ka" | "map_ka" | "sharpness" | "map_aat" | "pcr" | "anisor" => {}
+            "ka" | "map_ka" | "sharpness" | "map_aat" | "anisor" => {}
             // Exporters write these for all materials; 0 says that there is none.
-            "ps" | "pc" | "aniso" => return Ok(one(values, commas)? == 0.0),
+            "ps" | "aniso" => return Ok(one(values, commas)? == 0.0),
             _ => return Ok(false),
         }
         Ok(true)
