@@ -84,10 +84,8 @@ fn illumination_models() {
     }
     for glass in ["4", "6", "7", "9"] {
         let loaded = made(glass);
-        assert_warnings(
-            &loaded,
-            &[("material \"m\"", &format!("illum {glass} (glass) is drawn as a pane that does not refract"))],
-        );
+        let open = [("object \"\"", "its glass encloses no body; it is drawn as a pane that does not refract")];
+        assert_warnings(&loaded, if ["6", "7"].contains(&glass) { &open } else { &[] });
         let material = &loaded.scene.materials[0];
         assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Opaque), "no mirror");
         assert_eq!((material.transmission, material.interior.absorption), (1.0, None), "a pane");
@@ -101,6 +99,44 @@ fn illumination_models() {
     assert_warnings(&material("illum 9\nd 0.75\nTf 1 0 0\n"), &[("m", "illum 9 (glass) does not refract")]);
     assert_warnings(&material("illum 2\nTf 1 1 1\n"), &[]);
     assert_warnings(&material("illum 2\nTf 1 0.5 1\n"), &[("m", "Tf (coloured transmission) is not read")]);
+}
+
+/// A cube of eight corners, with one face left out if it is open.
+fn cube(faces: &[&str]) -> String {
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+    format!("mtllib test.mtl\n{corners}o cube\nusemtl m\nf {}\n", faces.join("\nf "))
+}
+
+const OUTWARDS: [&str; 6] = ["4 3 2 1", "5 6 7 8", "1 2 6 5", "2 3 7 6", "3 4 8 7", "4 1 5 8"];
+const INWARDS: [&str; 6] = ["1 2 3 4", "8 7 6 5", "5 6 2 1", "6 7 3 2", "7 8 4 3", "8 5 1 4"];
+
+#[test]
+fn closed_glass_is_a_body() {
+    let mtl = "newmtl m\nillum 7\nNi 1.33\nTf 0.25 1 0.64\n";
+    // The back's corner 1 has a second position of the same coordinates.
+    let seam = [&["4 3 2 9"], &OUTWARDS[1..]].concat();
+    let seam = cube(&seam).replace("o cube", "v -0 0 0\no cube");
+    for (text, name) in [(cube(&OUTWARDS), "outwards"), (cube(&INWARDS), "inwards"), (seam, "with a seam")] {
+        let loaded = read(text, mtl).unwrap();
+        assert_warnings(&loaded, &[]);
+        let mesh = &loaded.scene.meshes[0];
+        let material = &loaded.scene.materials[mesh.material];
+        assert_eq!((material.transmission, material.interior.index), (1.0, 1.33), "{name}");
+        assert_eq!(material.interior.absorption, Some([0.0; 3]), "{name}");
+        assert_close(&material.base_color, &[0.5, 1.0, 0.8, 1.0], 1e-6);
+        let [a, b, c] = mesh.triangles[0].map(|corner| mesh.positions[corner as usize]);
+        let [u, v] = [b, c].map(|p| [p[0] - a[0], p[1] - a[1]]);
+        assert!(u[0] * v[1] - u[1] * v[0] < 0.0, "{name}: the face at z = 0 looks to −Z");
+    }
+    let turned = [&OUTWARDS[..5], &[INWARDS[5]]].concat();
+    for faces in [&OUTWARDS[1..], &turned] {
+        let loaded = read(cube(faces), mtl).unwrap();
+        assert_warnings(&loaded, &[("object \"cube\"", "its glass encloses no body; it is drawn as a pane")]);
+        let material = &loaded.scene.materials[loaded.scene.meshes[0].material];
+        assert_eq!((material.interior.absorption, material.base_color), (None, [0.25, 1.0, 0.64, 1.0]));
+    }
+    let thin = read(cube(&OUTWARDS), mtl.replace("illum 7", "illum 4")).unwrap();
+    assert_eq!(thin.scene.materials[thin.scene.meshes[0].material].interior.absorption, None, "4 does not refract");
 }
 
 #[test]

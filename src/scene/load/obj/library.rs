@@ -17,6 +17,8 @@ use crate::scene::load::common::report::Report;
 #[derive(Default)]
 pub(super) struct Library {
     pub materials: Vec<Material>,
+    /// Materials of glass that refracts, if it is the skin of a body.
+    pub refracting: HashSet<usize>,
     /// Whole names, including a suffix that may be a comment.
     names: HashMap<String, usize>,
     /// Names without a suffix that may be a comment, unless a whole name is the same.
@@ -69,6 +71,9 @@ impl Library {
     fn add(&mut self, source: &Source, file: &str, textures: &mut Textures<'_>, report: &mut Report) {
         let number = self.materials.len();
         let material = source.convert(textures, file, report);
+        if source.refracts() && material.transmits() {
+            self.refracting.insert(number);
+        }
         let [short, whole] = &source.names;
         if self.names.insert(whole.clone(), number).is_some() {
             let element = format!("{file} material \"{}\"", shortened(short));

@@ -4,8 +4,8 @@
 //!   black `Kd` that reflects is a metal. Models (`illum`) 0 and 1 are without highlights.
 //! - `Pr` and `Pm`, and their maps, are the metallic-roughness model of glTF. `Ks` has no place there: a dielectric reflects by its index
 //!   of refraction (`Ni`, 1.5 by default). A map replaces its number, as in Blender, which writes an unused number beside each map.
-//! - Glass (`illum` 4, 6, 7, 9) transmits `Tf`, white by default. OBJ files do not say whether faces are the skin of a body, so glass is a
-//!   pane through which light goes straight. If its `d` is below 1, that is its opacity.
+//! - Glass (`illum` 4, 6, 7, 9) transmits `Tf`, white by default. Models 6 and 7 refract if their faces are closed ([`super::body`]).
+//!   Other glass is a pane, through which light goes straight. If its `d` is below 1, that is its opacity.
 //! - `d` is opacity: the part that the surface covers of everything behind it. It takes precedence over `Tr` = 1 − `d`, which some
 //!   exporters write the other way round.
 //! - `map_d` is opacity for each texel. If it is the same file as `map_Kd` and that has an alpha channel, it is this channel. Otherwise it
@@ -146,6 +146,11 @@ impl Source {
         }
     }
 
+    /// True if `illum` asks for refraction.
+    pub fn refracts(&self) -> bool {
+        matches!(self.illumination, Some(6.0 | 7.0))
+    }
+
     fn diffuse(&self, mapped: bool, element: &str, report: &mut Report) -> [f32; 3] {
         match self.diffuse {
             Some(diffuse) if mapped && strongest(diffuse) == 0.0 => {
@@ -223,8 +228,7 @@ impl Source {
                 report.warn(element, format!("illum {model} (glass) does not refract"));
                 material
             }
-            Model::Glass(model) => {
-                report.warn(element, format!("illum {model} (glass) is drawn as a pane that does not refract"));
+            Model::Glass(_) => {
                 let [r, g, b] = unit_color(filter, element, report);
                 // Glass scatters nothing, whatever Kd says.
                 Material {

@@ -12,6 +12,7 @@
 //! Faces may use vectors of later lines. Keywords may be in any case, numbers may have a decimal comma, and lines may end with CR.
 
 mod assemble;
+mod body;
 mod color;
 mod faces;
 mod geometry;
@@ -38,6 +39,7 @@ use crate::scene::load::common::folder::Folder;
 use crate::scene::load::common::recognise::{foreign, is_binary};
 use crate::scene::load::common::report::Loaded;
 use crate::scene::load::common::report::{Fault, Report};
+use body::Bodies;
 use geometry::Geometry;
 use library::Library;
 use textures::Textures;
@@ -64,6 +66,7 @@ fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fau
     let library = Library::read(&geometry, path, &folder, &mut textures, report);
     let found: Vec<_> = geometry.uses.iter().map(|used| library.find(used, report)).collect();
     let mut scene = Scene { materials: library.materials, ..Scene::default() };
+    let mut bodies = Bodies::default();
 
     let Geometry { mut vectors, colors, faces, groups, .. } = geometry;
     let colors = colors.linear(report);
@@ -83,6 +86,9 @@ fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fau
         });
         if let Some(material) = scene.materials.get(mesh.material) {
             warn_unmet(material, &mesh, report);
+        }
+        if library.refracting.contains(&mesh.material) && !mesh.triangles.is_empty() {
+            bodies.fill(&mut mesh, &mut scene.materials, report);
         }
         if !mesh.triangles.is_empty() {
             scene.meshes.push(mesh);
