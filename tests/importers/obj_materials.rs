@@ -89,10 +89,11 @@ fn illumination_models() {
         let material = &loaded.scene.materials[0];
         assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Opaque), "no mirror");
         assert_eq!((material.transmission, material.interior.absorption), (1.0, None), "a pane");
-        assert_eq!((material.base_color, material.interior.index), ([1.0; 4], 1.5));
+        assert_eq!((material.base_color, material.interior.index, material.roughness), ([1.0; 4], 1.5, 0.0));
         assert_close(&material.specular, &[0.04; 3], 1e-6);
     }
     assert_warnings(&made("12"), &[("material \"m\"", "illum 12 is not known; 2 is used")]);
+    assert_eq!(material("illum 7\nNs 10\nPr 0.5\n").scene.materials[0].roughness, 0.5);
     let tinted = &material("illum 6\nNi 1.33\nTf 1 0.5 0.25\n").scene.materials[0];
     assert_eq!((tinted.base_color, tinted.interior.index), ([1.0, 0.5, 0.25, 1.0], 1.33));
     // One defect gives one warning.

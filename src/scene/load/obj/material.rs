@@ -5,7 +5,8 @@
 //! - `Pr` and `Pm`, and their maps, are the metallic-roughness model of glTF. `Ks` has no place there: a dielectric reflects by its index
 //!   of refraction (`Ni`, 1.5 by default). A map replaces its number, as in Blender, which writes an unused number beside each map.
 //! - Glass (`illum` 4, 6, 7, 9) transmits `Tf`, white by default. Models 6 and 7 refract if their faces are closed ([`super::body`]).
-//!   Other glass is a pane, through which light goes straight. If its `d` is below 1, that is its opacity.
+//!   Other glass is a pane, through which light goes straight. Both are smooth, unless `Pr` says otherwise. If `d` is below 1, that is the
+//!   opacity.
 //! - `d` is opacity: the part that the surface covers of everything behind it. It takes precedence over `Tr` = 1 − `d`, which some
 //!   exporters write the other way round.
 //! - `map_d` is opacity for each texel. If it is the same file as `map_Kd` and that has an alpha channel, it is this channel. Otherwise it
@@ -110,6 +111,8 @@ impl Source {
             roughness: match self.roughness {
                 _ if rough => 1.0,
                 Some(given) => unit(given, report),
+                // Rays are refracted and mirrored sharply. `Ns` describes highlights.
+                None if matches!(model, Model::Glass(_)) => 0.0,
                 None => self.shininess.map_or(1.0, roughness),
             },
             metallic_roughness_texture,
