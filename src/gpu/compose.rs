@@ -74,6 +74,10 @@ const SHARED: &[(&str, &str)] = &[
     #[cfg(feature = "path-tracer")]
     ("light", include_str!("../../shaders/shared/light.wgsl")),
     #[cfg(feature = "path-tracer")]
+    ("path", include_str!("../../shaders/shared/path.wgsl")),
+    #[cfg(feature = "path-tracer")]
+    ("blended", include_str!("../../shaders/shared/blended.wgsl")),
+    #[cfg(feature = "path-tracer")]
     ("blinn_phong", include_str!("../../shaders/shared/blinn_phong.wgsl")),
 ];
 
