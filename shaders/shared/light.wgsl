@@ -1,6 +1,6 @@
 #define_import_path asvgf::light
 
-#import asvgf::scene::{scene, load_light}
+#import asvgf::scene::{scene, load_light, Light}
 #ifdef ENVIRONMENT_LIGHT
 #import asvgf::scene::{environment, environment_table}
 #import asvgf::packing::unpack_rgb
@@ -10,6 +10,9 @@
 #import asvgf::color::luminance
 #import asvgf::ggx::PI
 #import asvgf::material::surface_at
+#ifdef EMITTER_PIECES
+#import asvgf::emitter_pieces::{sample_piece, piece_density}
+#endif
 
 // Light kinds, as in src/scene/gpu/light/record.rs.
 const EMITTER: u32 = 0u;
@@ -75,10 +78,21 @@ fn environment_density(radiance: vec3<f32>) -> f32 {
     return luminance(radiance) * scene.environment_density;
 }
 
-// Density with which `sample_light` finds this point of an emitter: choice · distance² / (area · cosine).
-fn emitter_density(light: u32, t: Triangle, direction: vec3<f32>, distance: f32) -> f32 {
+// Density with which `sample_light` finds a point of an emitter if all points are alike: choice · distance² / (area · cosine).
+fn even_density(light: Light, t: Triangle, direction: vec3<f32>, distance: f32) -> f32 {
     let area_normal = 0.5 * cross(t.b - t.a, t.c - t.a);
-    return load_light(light).pmf * distance * distance / max(abs(dot(area_normal, direction)), 1e-30);
+    return light.pmf * distance * distance / max(abs(dot(area_normal, direction)), 1e-30);
+}
+
+// Density with which `sample_light` finds this point of an emitter.
+fn emitter_density(index: u32, t: Triangle, weights: vec2<f32>, direction: vec3<f32>, distance: f32) -> f32 {
+    let light = load_light(index);
+    let even = even_density(light, t, direction, distance);
+#ifdef EMITTER_PIECES
+    return even * piece_density(light, weights);
+#else
+    return even;
+#endif
 }
 
 #ifdef LIGHTS
@@ -90,9 +104,14 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
     if light.kind == EMITTER {
         let v = Visible(light.triangle, light.instance);
         let t = triangle_now(v);
+#ifdef EMITTER_PIECES
+        let piece = sample_piece(light, u);
+        let weights = piece.weights;
+#else
         // Uniform over the triangle.
         let r = sqrt(u.x);
         let weights = vec2(r * (1.0 - u.y), r * u.y);
+#endif
         let way = at(t, weights) - position;
         let squared = max(dot(way, way), 1e-30);
         s.distance = sqrt(squared);
@@ -103,7 +122,10 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         // it lights.
         let cosine = abs(dot(surface.geometric, s.direction));
         s.reach = s.distance * FREE_PART - dot(abs(surface.geometric), rounding_error(t, v)) / max(cosine, 1e-6);
-        s.density = emitter_density(index, t, s.direction, s.distance);
+        s.density = even_density(light, t, s.direction, s.distance);
+#ifdef EMITTER_PIECES
+        s.density *= piece.density;
+#endif
         s.has_area = true;
         return s;
     }

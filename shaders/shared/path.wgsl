@@ -246,7 +246,8 @@ fn path(first: Surface, seed: u32) -> Estimate {
 #else
             let index = emitter - 1u;
 #endif
-            add(&light, from_emitter, s.emission, mis_weight(scattered.density, emitter_density(index, t, next, hit.distance)));
+            let density = emitter_density(index, t, hit.barycentrics, next, hit.distance);
+            add(&light, from_emitter, s.emission, mis_weight(scattered.density, density));
 #endif
         }
 #else ifdef TRANSMISSION

@@ -52,7 +52,7 @@ struct Scene {
 // Per triangle: three octahedral normals (0: none), with NORMAL_MAPS three tangents (0: none), then three (u, v) per set of texture
 // coordinates, then three colours of four 16-bit numbers.
 @group(1) @binding(3) var<storage, read> attributes: array<u32>;
-// Materials and lights, the structs below texel by texel.
+// Materials and lights, the structs below texel by texel. Tables of the pieces of emitters follow the lights.
 @group(1) @binding(5) var materials: texture_2d<u32>;
 @group(1) @binding(6) var lights: texture_2d<u32>;
 // RGBA8 texels of all images, folded into layers as in src/scene/gpu/surface/places.rs if a buffer cannot hold them.
@@ -173,8 +173,10 @@ struct Light {
     // Scale and offset of the spot's angular falloff.
     spot_scale: f32,
     spot_offset: f32,
-    _pad_a: u32,
-    _pad_b: u32,
+    // Of an emitter that is divided: the texel of `lights` at which the table of its pieces begins, and log₂ of the number of their
+    // rows.
+    pieces: u32,
+    level: u32,
 }
 
 const NO_TRIANGLE: u32 = 0xffffffffu;
@@ -258,13 +260,13 @@ fn load_light(i: u32) -> Light {
     let place = light_word(first + 1u);
     let axis = light_word(first + 2u);
     let strength = bitcast<vec4<f32>>(light_word(first + 3u));
-    let spot = bitcast<vec2<f32>>(light_word(first + 4u).xy);
+    let last = light_word(first + 4u);
     return Light(
         choice.x, choice.y, bitcast<f32>(choice.z), bitcast<f32>(choice.w),
         bitcast<vec3<f32>>(place.xyz), place.w,
         bitcast<vec3<f32>>(axis.xyz), axis.w,
         strength.xyz, strength.w,
-        spot.x, spot.y, 0u, 0u,
+        bitcast<f32>(last.x), bitcast<f32>(last.y), last.z, last.w,
     );
 }
 

@@ -72,6 +72,8 @@ const SHARED: &[(&str, &str)] = &[
     #[cfg(feature = "path-tracer")]
     ("traverse", include_str!("../../shaders/shared/traverse.wgsl")),
     #[cfg(feature = "path-tracer")]
+    ("emitter_pieces", include_str!("../../shaders/shared/emitter_pieces.wgsl")),
+    #[cfg(feature = "path-tracer")]
     ("light", include_str!("../../shaders/shared/light.wgsl")),
     #[cfg(feature = "path-tracer")]
     ("path", include_str!("../../shaders/shared/path.wgsl")),

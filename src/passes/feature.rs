@@ -53,6 +53,8 @@ features! {
     Lights,
     /// Emitting triangles.
     Emitters,
+    /// Emitting triangles with an uneven image are divided into pieces.
+    EmitterPieces,
     /// Lights without area.
     PunctualLights,
     /// Light from infinity.

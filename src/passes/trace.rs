@@ -16,6 +16,7 @@ pub(crate) static PASS: Pass = Pass {
             knows(SeeThrough),
             knows(Lights),
             knows(Emitters),
+            knows(EmitterPieces),
             knows(PunctualLights),
             knows(EnvironmentLight),
             knows(DirectEmission),

@@ -85,6 +85,11 @@ pub(super) fn traced(contents: &SceneContents, settings: &Settings, changes: Cha
         (FewTriangles, contents.few_triangles, FEW_TRIANGLES),
         (Lights, lights, ["there is light to sample", "nothing emits: no light is sampled"]),
         (Emitters, contents.emitters, ["triangles emit", "no triangle emits"]),
+        (
+            EmitterPieces,
+            contents.emitters && contents.emitter_pieces,
+            ["an emissive image is uneven: its bright pieces are sampled more", "no emissive image is uneven"],
+        ),
         (PunctualLights, contents.punctual_lights, ["there are lights without area", "there is no light without area"]),
         (EnvironmentLight, contents.environment, ["the environment is not black", "the environment is black"]),
         (Albedo, true, ["light is filtered without the surfaces' textures", ""]),

@@ -33,6 +33,8 @@ pub struct SceneContents {
     pub alpha_blend: bool,
     /// Triangles emit light.
     pub emitters: bool,
+    /// The emissive image of such a triangle is uneven, so that light samples choose among its pieces.
+    pub emitter_pieces: bool,
     /// There are lights without area.
     pub punctual_lights: bool,
     /// There is an environment that is not black.
@@ -61,6 +63,7 @@ impl SceneContents {
             alpha_mask: true,
             alpha_blend: true,
             emitters: true,
+            emitter_pieces: true,
             punctual_lights: true,
             unlit: true,
             // A tree suits any scene.

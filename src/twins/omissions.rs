@@ -25,6 +25,7 @@ const ALL: SceneContents = SceneContents {
     alpha_mask: true,
     alpha_blend: true,
     emitters: true,
+    emitter_pieces: true,
     punctual_lights: true,
     environment: true,
     environment_run: 1,
@@ -185,7 +186,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
     ]
     .concat();
     shine.sort_unstable();
-    let cases: [(SceneContents, &[&str]); 15] = [
+    let cases: [(SceneContents, &[&str]); 16] = [
         (SceneContents { instanced: false, deforming: false, ..ALL }, &moving),
         (SceneContents { deforming: false, ..ALL }, &shapes),
         (SceneContents { textures: false, normal_maps: false, ..ALL }, &images),
@@ -201,7 +202,11 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         ),
         (SceneContents { alpha_mask: false, alpha_blend: false, ..ALL }, &opacity),
         (SceneContents { alpha_blend: false, ..ALL }, &blending),
-        (SceneContents { emitters: false, ..ALL }, &["emitter_density"]),
+        (
+            SceneContents { emitters: false, ..ALL },
+            &["emitter_density", "even_density", "piece_density", "piece_entry", "sample_piece"],
+        ),
+        (SceneContents { emitter_pieces: false, ..ALL }, &["piece_density", "piece_entry", "sample_piece"]),
         (SceneContents { punctual_lights: false, ..ALL }, &[]),
         (SceneContents { environment: false, ..ALL }, sky),
     ];

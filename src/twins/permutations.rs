@@ -51,6 +51,7 @@ fn contents() -> Vec<SceneContents> {
                 specular: bit(3),
                 alpha_mask: bit(4),
                 emitters: bit(5),
+                emitter_pieces: bit(5) && bit(1) && bit(2),
                 punctual_lights: bit(6),
                 environment: bit(7),
                 unlit: bit(8),

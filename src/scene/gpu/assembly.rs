@@ -76,7 +76,9 @@ impl<'a> Assembly<'a> {
             None => None,
         };
         let sky_light = sky.as_ref().map(|(_, table)| lights.add_environment(table.weight, radius));
-        let lights = lights.finish();
+        let of_pieces =
+            |material: usize, division: &_| geometry.emission.probabilities(&scene.materials[material], division);
+        let lights = lights.finish(of_pieces);
         let mut header = Header::new(&sections, geometry.layout, lights.table.len());
         if let (Some((_, table)), Some(light)) = (&sky, sky_light) {
             header = header.with_environment(table, light, lights.table[light].pmf);
@@ -111,6 +113,7 @@ impl<'a> Assembly<'a> {
             instanced: sections.instanced,
             deforming: !arrangement.deforming.is_empty(),
             emitters: used.emitters && emitters > 0,
+            emitter_pieces: !arrangement.lights.pieces.is_empty(),
             punctual_lights: punctual > 0,
             folded_images: are_folded(&scene.images, capacity),
             environment: sky.is_some(),
@@ -144,7 +147,7 @@ fn instances(
     pose: &Pose,
     centre: DVec3,
     groups: Vec<Group>,
-    (geometry, lights): (&mut Geometry, &mut LightList),
+    (geometry, lights): (&mut Geometry<'_>, &mut LightList),
 ) -> (Vec<Instance>, Vec<Deforming>) {
     let (mut instances, mut deforming) = (Vec::new(), Vec::new());
     let (mut first_id, mut first_corner) = (0, 0);
@@ -165,10 +168,10 @@ fn instances(
                 first_corner: group.deforms.map(|_| first_corner),
             };
             let placement = instance.placement(pose, centre);
-            for (row, face) in &built.emitters {
+            for (row, face, light) in &built.emitters {
                 let number = drawn[face.mesh].posed().mesh.material;
                 let material = (number, &scene.materials[number]);
-                lights.add_emitter((instances.len(), *row), face, material, placement);
+                lights.add_emitter((instances.len(), *row), (face, light), material, placement);
             }
             instances.push(instance);
             first_id += row_count;

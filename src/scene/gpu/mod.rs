@@ -3,6 +3,7 @@
 mod arrangement;
 mod assembly;
 mod contents;
+mod emission;
 mod geometry;
 mod header;
 mod light;

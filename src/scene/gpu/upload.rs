@@ -53,7 +53,7 @@ impl Buffers {
             attributes: attribute_buffer(device, "normals and texture coordinates", attributes, 4),
             images: Images::new(device, queue, images, assembly.contents.folded_images),
             materials: folded(device, queue, "materials", materials),
-            lights: folded(device, queue, "lights", &assembly.arrangement.lights.table),
+            lights: folded(device, queue, "lights", &assembly.arrangement.lights.texels()),
             sky: sky.as_ref().map(|(environment, table)| Sky::new(device, queue, environment, table)),
             facets: facets(device, assembly.facets.as_ref()),
         }

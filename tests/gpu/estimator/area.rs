@@ -7,12 +7,12 @@ use asvgf::Sampling;
 use asvgf::scene::{Alpha, Image, Material, Scene, Texture, Transform};
 use std::f64::consts::PI;
 
-const ALBEDO: f64 = 0.7;
-const RADIANCE: [f32; 3] = [5.0, 2.0, 1.0];
+pub const ALBEDO: f64 = 0.7;
+pub const RADIANCE: [f32; 3] = [5.0, 2.0, 1.0];
 
 /// The lamp's extents in x and z, at a height.
-const LAMP: [[f64; 2]; 2] = [[-0.4, 0.5], [-0.3, 0.9]];
-const HEIGHT: f64 = 1.1;
+pub const LAMP: [[f64; 2]; 2] = [[-0.4, 0.5], [-0.3, 0.9]];
+pub const HEIGHT: f64 = 1.1;
 
 /// Form factor from a point of the floor to a parallel rectangle with a corner above it.
 fn corner(a: f64, b: f64) -> f64 {
@@ -27,7 +27,7 @@ fn form_factor(p: V, [[x0, x1], [z0, z1]]: [[f64; 2]; 2]) -> f64 {
 }
 
 /// A floor and a lamp that shines down.
-fn lamp_over_floor(material: Material) -> Scene {
+pub fn lamp_over_floor(material: Material) -> Scene {
     let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
     let [[x0, x1], [z0, z1]] = LAMP.map(|r| r.map(|v| v as f32));
     // x × z points down.
@@ -36,11 +36,11 @@ fn lamp_over_floor(material: Material) -> Scene {
 }
 
 /// A camera below the lamp's height, because the lamp must not hide the floor from it.
-fn below() -> asvgf::Camera {
+pub fn below() -> asvgf::Camera {
     asvgf::Camera { eye: [0.3, 1.0, 0.2], fov_y: 0.6, ..from_above() }
 }
 
-fn expected(rectangle: [[f64; 2]; 2], i: usize) -> f64 {
+pub fn expected(rectangle: [[f64; 2]; 2], i: usize) -> f64 {
     // The lower camera sees other points of the floor than `from_above`.
     let spread = (0.3_f64).tan() / (0.15_f64).tan() / 3.0;
     over_floor(|p| {
@@ -105,6 +105,13 @@ fn a_texture_decides_where_a_lamp_shines() {
         let found = images(scene.clone(), below(), tracer(sampling, 0), 64);
         channel(&found, 0).assert_is(expected(half, 0), ROUNDING, &format!("half a lamp, {sampling:?}"));
     }
+}
+
+#[test]
+fn colours_of_vertices_do_not_tint_emission() {
+    let mut scene = lamp_over_floor(emitter(RADIANCE));
+    scene.meshes[1].colors = vec![[1.0, 0.0, 0.0, 1.0], [0.0; 4], [0.0, 0.2, 0.0, 0.5], [0.3; 4]];
+    assert_floor_is_lit(&scene, 1.0, "lamp with coloured corners");
 }
 
 #[test]

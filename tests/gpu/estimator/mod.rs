@@ -3,6 +3,7 @@
 mod agreement;
 mod area;
 mod clearcoat;
+mod emissive_images;
 mod furnace;
 mod glass;
 mod large;

@@ -54,8 +54,7 @@ impl Layout {
     ) {
         let mesh = posed.mesh;
         let mirrored = face.placement.determinant() < 0.0;
-        let in_order = |[a, b, c]: [_; 3]| if mirrored != posed.mirrored { [a, c, b] } else { [a, b, c] };
-        let corners = in_order(mesh.triangles[face.triangle]);
+        let corners = face.in_order(posed, mesh.triangles[face.triangle]);
         if self.normals {
             // Normals transform by the transpose of the inverse.
             let words = match (normals, posed.normals()) {
@@ -76,16 +75,13 @@ impl Layout {
                     let direction = (map * tangent.truncate()).try_normalize()?;
                     Some(pack_tangent(direction, (tangent.w < 0.0) != mirrored))
                 });
-                Some(in_order([a?, b?, c?]))
+                Some(face.in_order(posed, [a?, b?, c?]))
             });
             attributes.extend(packed.unwrap_or([0; 3]));
         }
         for (set, offset) in self.uv.iter().enumerate() {
             if offset.is_some() {
-                for corner in corners {
-                    let uv = mesh.uvs[set].get(corner as usize).copied().unwrap_or_default();
-                    attributes.extend(uv.map(f32::to_bits));
-                }
+                attributes.extend(face.uvs(posed, set).as_flattened().iter().map(|x| x.to_bits()));
             }
         }
         if self.color.is_some() {

@@ -46,7 +46,7 @@ impl Deforming {
     pub fn of(
         drawn: &[Drawn<'_>],
         pose: &Pose,
-        geometry: &Geometry,
+        geometry: &Geometry<'_>,
         (group, built): (&Group, Built),
         instance: usize,
     ) -> Option<Self> {

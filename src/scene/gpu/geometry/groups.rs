@@ -43,6 +43,18 @@ impl Face {
     pub fn area_normal(&self) -> Vec3 {
         0.5 * (self.corners[1] - self.corners[0]).cross(self.corners[2] - self.corners[0])
     }
+
+    /// Values of the triangle's vertices in the order of the corners.
+    pub fn in_order<T>(&self, posed: &Posed<'_>, [a, b, c]: [T; 3]) -> [T; 3] {
+        let mirrored = self.placement.determinant() < 0.0;
+        if mirrored != posed.mirrored { [a, c, b] } else { [a, b, c] }
+    }
+
+    /// Texture coordinates of the corners in a set; 0 where the mesh has none.
+    pub fn uvs(&self, posed: &Posed<'_>, set: usize) -> [[f32; 2]; 3] {
+        let vertices = self.in_order(posed, posed.mesh.triangles[self.triangle]);
+        vertices.map(|vertex| posed.mesh.uvs[set].get(vertex as usize).copied().unwrap_or_default())
+    }
 }
 
 /// Sorts meshes into groups. The static geometry comes first, in world space as `world` places its nodes, relative to `centre`. One

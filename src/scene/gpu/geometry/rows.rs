@@ -5,12 +5,13 @@ use super::drawn::Drawn;
 use super::groups::{Face, Group};
 use super::tangents::{self, Tangents};
 use crate::scene::description::{Mesh, Scene};
+use crate::scene::gpu::emission::maps::{Emission, EmissionMaps};
 use crate::scene::gpu::memory::folded::Texel;
 use crate::scene::gpu::tree::{self, Fitted, Quantization, Tree};
 use glam::Vec3;
 
 /// All trees and rows of a scene.
-pub(crate) struct Geometry {
+pub(crate) struct Geometry<'a> {
     /// Number of the first of `nodes`.
     pub first_node: u32,
     pub nodes: Vec<tree::Node>,
@@ -21,6 +22,7 @@ pub(crate) struct Geometry {
     pub layout: Layout,
     /// The tangents of each drawn mesh that has a normal map.
     pub tangents: Vec<Option<Tangents>>,
+    pub emission: EmissionMaps<'a>,
     /// Depth of the deepest tree.
     pub depth: u32,
 }
@@ -33,16 +35,18 @@ pub(crate) struct Built {
     pub grid: Quantization,
     /// The tree, if its triangles change their shape.
     pub fitted: Option<Fitted>,
-    /// The faces that emit, each with its row, in the order of their numbers.
-    pub emitters: Vec<(u32, Face)>,
+    /// The faces that emit, each with its row and its light, in the order of their numbers.
+    pub emitters: Vec<(u32, Face, Emission)>,
 }
 
-impl Geometry {
-    pub fn new(scene: &Scene, drawn: &[Drawn<'_>], first_node: u32) -> Self {
+impl<'a> Geometry<'a> {
+    pub fn new(scene: &'a Scene, drawn: &[Drawn<'_>], first_node: u32) -> Self {
         let layout = Layout::of(scene);
         let of_mesh = |mesh: &Mesh| tangents::of(mesh, &scene.materials[mesh.material]);
         let tangents = drawn.iter().map(|drawn| of_mesh(drawn.posed().mesh)).collect();
-        Self { first_node, nodes: Vec::new(), rows: Vec::new(), attributes: Vec::new(), layout, tangents, depth: 0 }
+        let emission = EmissionMaps::of(scene);
+        let (nodes, rows, attributes) = Default::default();
+        Self { first_node, nodes, rows, attributes, layout, tangents, emission, depth: 0 }
     }
 
     /// Builds the group's tree and appends its rows in the order of the leaves. The rows of a mesh that changes its shape are in the
@@ -65,8 +69,10 @@ impl Geometry {
             let posed = drawn[face.mesh].posed();
             let material = posed.mesh.material;
             let mut number = 0;
-            if scene.materials[material].is_emitter() && face.area_normal() != Vec3::ZERO {
-                emitters.push((self.rows.len() as u32, face));
+            if face.area_normal() != Vec3::ZERO
+                && let Some(light) = self.emission.over(&scene.materials[material], |set| face.uvs(&posed, set))
+            {
+                emitters.push((self.rows.len() as u32, face, light));
                 number = emitters.len() as u32;
             }
             self.rows.push(row(face.corners, [material as u32, number]));

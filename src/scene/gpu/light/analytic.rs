@@ -1,7 +1,7 @@
 //! The lights that the Blinn–Phong gradient evaluates.
 
-use super::luminance::luminance;
 use super::record::GpuLight;
+use crate::scene::gpu::emission::luminance::luminance;
 use bytemuck::{Pod, Zeroable};
 
 /// Maximum number of lights that the gradient evaluates. The strongest are kept.

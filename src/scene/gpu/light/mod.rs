@@ -3,7 +3,7 @@
 mod alias;
 pub(crate) mod analytic;
 mod emitter;
-mod luminance;
+mod pieces;
 mod punctual;
 pub(crate) mod radiance;
 pub(crate) mod record;

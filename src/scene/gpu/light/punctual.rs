@@ -1,8 +1,8 @@
 //! Lights without area.
 
-use super::luminance::luminance;
 use super::record::{DIRECTIONAL, GpuLight, POINT};
 use crate::scene::description::{Light, LightKind};
+use crate::scene::gpu::emission::luminance::luminance;
 use glam::{Mat4, Vec3};
 use std::f64::consts::PI;
 

@@ -24,7 +24,9 @@ pub(crate) struct GpuLight {
     pub range: f32,
     pub spot_scale: f32,
     pub spot_offset: f32,
-    pub pad: [u32; 2],
+    /// Of an emitter that is divided: the texel at which the table of its pieces begins, and log₂ of the number of their rows.
+    pub pieces: u32,
+    pub level: u32,
 }
 
 #[cfg(test)]
@@ -35,7 +37,7 @@ mod tests {
     #[test]
     fn a_light_lies_where_the_shaders_read_it() {
         let light = fields!(GpuLight: kind, alias as "alias_index", threshold, pmf, position, triangle, axis, instance,
-            intensity, range, spot_scale, spot_offset);
+            intensity, range, spot_scale, spot_offset, pieces, level);
         assert_layout("Light", light, size_of::<GpuLight>());
     }
 }

@@ -6,9 +6,9 @@
 //! sum. In pictures of up to 1024 × 1024 texels a cell is a texel.
 
 use super::alias;
-use super::luminance::luminance;
 use super::radiance::{pack, unpack};
 use crate::scene::description::{Environment, SceneError};
+use crate::scene::gpu::emission::luminance::luminance;
 use crate::scene::gpu::memory::folded::Texel;
 use std::f64::consts::PI;
 use wgpu::Limits;

@@ -7,12 +7,16 @@
 use super::alias;
 use super::analytic::{AnalyticLight, strongest};
 use super::emitter::Emitter;
-use super::luminance::luminance;
+use super::pieces::Tables;
 use super::punctual::{self, Punctual};
 use super::record::{self, GpuLight};
 use crate::scene::description::{Material, Pose, Scene};
+use crate::scene::gpu::emission::division::Division;
+use crate::scene::gpu::emission::luminance::luminance;
+use crate::scene::gpu::emission::maps::Emission;
 use crate::scene::gpu::geometry::centre::relative;
 use crate::scene::gpu::geometry::groups::Face;
+use crate::scene::gpu::memory::folded::{Texel, texels};
 use glam::{DVec3, Mat4, Vec3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -22,6 +26,8 @@ use std::f64::consts::PI;
 pub(crate) struct Lights {
     /// Triangles that emit, then lights without area, then the environment.
     pub table: Vec<GpuLight>,
+    /// Tables of the pieces of emitters that are divided. They follow the lights.
+    pub pieces: Vec<Texel>,
     /// Place of the first of `punctual` in the table. The others follow it.
     first_punctual: usize,
     punctual: Vec<Punctual>,
@@ -29,6 +35,11 @@ pub(crate) struct Lights {
 }
 
 impl Lights {
+    /// The records of the lights, and the tables of pieces.
+    pub fn texels(&self) -> Vec<Texel> {
+        [texels(&self.table), &self.pieces].concat()
+    }
+
     /// The nodes of the lights without area.
     pub fn nodes(&self) -> impl Iterator<Item = usize> {
         self.punctual.iter().map(|light| light.node)
@@ -66,6 +77,7 @@ impl Lights {
 pub(crate) struct LightList {
     table: Vec<GpuLight>,
     powers: Vec<f64>,
+    pieces: Tables,
     emitters: BTreeMap<(usize, usize), Emitter>,
     first_punctual: usize,
     punctual: Vec<Punctual>,
@@ -77,22 +89,26 @@ impl LightList {
         self.table.len()
     }
 
-    /// Adds a triangle with its row in the lookup table and its instance, which has this `placement`.
+    /// Adds a triangle with its light, its row in the lookup table and its instance, which has this `placement`.
     pub fn add_emitter(
         &mut self,
         (instance, row): (usize, u32),
-        face: &Face,
+        (face, light): (&Face, &Emission),
         (number, material): (usize, &Material),
         placement: Mat4,
     ) {
-        let light = GpuLight { kind: record::EMITTER, triangle: row, instance: instance as u32, ..Default::default() };
-        self.table.push(light);
         let [a, b, c] = face.corners.map(|p| placement.transform_point3(p));
         let area = 0.5 * f64::from((b - a).cross(c - a).length());
-        self.powers.push(area * PI * luminance(material.emissive));
+        let power = area * PI * luminance((Vec3::from(material.emissive) * light.mean).to_array());
+        if let Some(division) = light.division {
+            self.pieces.divide((self.table.len(), power), row, number, division);
+        }
+        let record = GpuLight { kind: record::EMITTER, triangle: row, instance: instance as u32, ..Default::default() };
+        self.table.push(record);
+        self.powers.push(power);
         let emitter = self.emitters.entry((instance, number));
-        let emitter = emitter.or_insert_with(|| Emitter { instance, material: number, ..Default::default() });
-        emitter.add(face.corners, face.area_normal());
+        let emitter = emitter.or_insert_with(|| Emitter::new(instance, number));
+        emitter.add(face.corners, face.area_normal(), light.mean);
     }
 
     /// Adds the lights without area of a scene of this radius. [`Lights::place`] places them.
@@ -115,11 +131,12 @@ impl LightList {
         self.table.len() - 1
     }
 
-    /// The list with its probabilities.
-    pub fn finish(self) -> Lights {
-        let Self { mut table, powers, emitters, first_punctual, punctual } = self;
+    /// The list with its probabilities. `of_pieces` gives those of the pieces of a triangle of a material.
+    pub fn finish(self, of_pieces: impl Fn(usize, &Division) -> Vec<f64>) -> Lights {
+        let Self { mut table, powers, pieces, emitters, first_punctual, punctual } = self;
         assign_probabilities(&mut table, &powers);
-        Lights { table, first_punctual, punctual, emitters: emitters.into_values().collect() }
+        let pieces = pieces.finish(&mut table, of_pieces);
+        Lights { table, pieces, first_punctual, punctual, emitters: emitters.into_values().collect() }
     }
 }
 

@@ -15,4 +15,3 @@ mod ktx2;
 pub(super) mod recognise;
 #[cfg(any(feature = "gltf", feature = "obj"))]
 pub(super) mod report;
-pub(super) mod srgb;

@@ -11,8 +11,8 @@ use std::path::Path;
 use image::{DynamicImage, ImageReader};
 
 use crate::image_io::{Format, limits, read_file, recognise};
+use crate::scene::description::linear_from_srgb;
 use crate::scene::description::{Environment, SceneError, Warning};
-use crate::scene::load::common::srgb::linear_from_srgb;
 use picture::{Picture, clean, odd_shape};
 
 impl Environment {

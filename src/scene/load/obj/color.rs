@@ -3,8 +3,8 @@
 //! The format does not define the numbers. They are read as sRGB, as Blender and three.js do. A fourth number is a linear alpha.
 
 use super::text::number;
+use crate::scene::description::linear_from_srgb;
 use crate::scene::load::common::report::Report;
-use crate::scene::load::common::srgb::linear_from_srgb;
 
 const WHITE: [f32; 4] = [1.0; 4];
 /// The largest rounding error of exporters.
