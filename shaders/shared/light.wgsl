@@ -10,6 +10,9 @@
 #import asvgf::color::luminance
 #import asvgf::ggx::PI
 #import asvgf::material::surface_at
+#ifdef ALPHA_MASK
+#import asvgf::texture::emitting_part
+#endif
 #ifdef EMITTER_PIECES
 #import asvgf::emitter_pieces::{sample_piece, piece_density}
 #endif
@@ -118,6 +121,9 @@ fn sample_light(position: vec3<f32>, choice: f32, u: vec2<f32>) -> LightSample {
         s.direction = way / s.distance;
         let surface = surface_at(v, t, weights, s.direction);
         s.radiance = surface.emission;
+#ifdef ALPHA_MASK
+        s.radiance *= emitting_part(light.triangle, weights);
+#endif
         // A part in 10⁴ alone is less than the error of the light's plane, if that is far from the scene's centre and near to what
         // it lights.
         let cosine = abs(dot(surface.geometric, s.direction));

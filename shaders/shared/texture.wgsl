@@ -159,6 +159,23 @@ fn covered_at(row: u32, barycentrics: vec2<f32>) -> f32 {
 }
 #endif
 
+#ifdef ALPHA_MASK
+// Part of a triangle's light samples at a point that rays would find too: 0 in a hole, and the opacity of a blended surface.
+fn emitting_part(row: u32, barycentrics: vec2<f32>) -> f32 {
+    let material = load_material(geometry_word(row * 3u).w);
+    if material.cutoff <= 0.0 {
+        return 1.0;
+    }
+    let opacity = opacity_at(material, row, barycentrics);
+#ifdef ALPHA_BLEND
+    if (material.flags & BLENDED) != 0u {
+        return clamp(opacity, 0.0, 1.0);
+    }
+#endif
+    return select(1.0, 0.0, opacity < material.cutoff);
+}
+#endif
+
 // True if a ray goes through this point of a triangle, which it meets from the back or from the front: because of the opacity, or
 // because the material has no back faces.
 fn is_hole(row: u32, instance: u32, barycentrics: vec2<f32>, back: bool) -> bool {

@@ -113,7 +113,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         "start_of_path",
         "whole_demodulation",
     ];
-    let mut opacity = [&blending[..], &["is_hole", "meets_back", "opacity_at"]].concat();
+    let mut opacity = [&blending[..], &["emitting_part", "is_hole", "meets_back", "opacity_at"]].concat();
     opacity.sort_unstable();
     let sky = &["environment", "environment_density", "environment_table", "environment_texel", "texel_radiance"][..];
     let maps = ["load_normal_map", "mapped_normal", "normal_from", "tangent_at", "unpack_tangent"];
@@ -204,7 +204,7 @@ fn what_a_scene_does_not_have_is_not_in_its_shaders() {
         (SceneContents { alpha_blend: false, ..ALL }, &blending),
         (
             SceneContents { emitters: false, ..ALL },
-            &["emitter_density", "even_density", "piece_density", "piece_entry", "sample_piece"],
+            &["emitter_density", "emitting_part", "even_density", "piece_density", "piece_entry", "sample_piece"],
         ),
         (SceneContents { emitter_pieces: false, ..ALL }, &["piece_density", "piece_entry", "sample_piece"]),
         (SceneContents { punctual_lights: false, ..ALL }, &[]),

@@ -7,7 +7,8 @@ use crate::common::stage::Stage;
 use crate::common::statistics::{Estimate, Rgb};
 use asvgf::plan::Feature;
 use asvgf::scene::{
-    Animation, Channel, Image, Interpolation, Material, MorphTarget, Node, Scene, Target, Texture, Transform, Wrap,
+    Alpha, Animation, Channel, Image, Interpolation, Material, MorphTarget, Node, Scene, Target, Texture, Transform,
+    Wrap,
 };
 use asvgf::{Sampling, Settings};
 use std::ops::Range;
@@ -142,6 +143,25 @@ fn black_parts_of_an_image_are_no_lights() {
     assert!(
         !features.has(Feature::Emitters) && !features.has(Feature::Lights) && !features.has(Feature::EmitterPieces)
     );
+}
+
+#[test]
+fn a_hole_of_a_lamp_emits_nothing_and_a_veil_as_much_as_it_covers() {
+    // The lamp is opaque left of the middle, and has this opacity on the right.
+    for (alpha, opacity, part) in [(Alpha::Mask(0.5), 0, 0.0), (Alpha::Mask(0.5), 200, 1.0), (Alpha::Blend, 51, 0.2)] {
+        let mut scene = lamp_over_floor(Material { alpha, ..emitter(RADIANCE) });
+        let texels = vec![[0, 0, 0, 255], [0, 0, 0, opacity]];
+        scene.images = vec![Image { width: 2, height: 1, texels, ..Default::default() }];
+        scene.materials[1].base_color = [1.0; 4];
+        scene.materials[1].base_color_texture = Some(Texture { nearest: true, ..Texture::new(0) });
+        let middle = 0.5 * (LAMP[0][0] + LAMP[0][1]);
+        let [left, right] = [[LAMP[0][0], middle], [middle, LAMP[0][1]]].map(|columns| [columns, LAMP[1]]);
+        let expected = |i| expected(left, i) + part * expected(right, i);
+        for sampling in SAMPLINGS {
+            let found = images(scene.clone(), below(), tracer(sampling, 0), 64);
+            channel(&found, 0).assert_is(expected(0), ROUNDING, &format!("{alpha:?}, {opacity}, {sampling:?}"));
+        }
+    }
 }
 
 #[test]

@@ -96,12 +96,15 @@ impl<'a> Pyramid<'a> {
     pub fn is_black(&self, texture: &Texture, [low, high]: [[f64; 2]; 2]) -> bool {
         /// Most texels that are looked at along each axis.
         const MOST: f64 = 8.0;
+        /// Coordinate in texels at which shaders end.
+        const FARTHEST: f64 = 4_194_304.0;
         // Interpolation reaches a texel farther, and f32 rounds coordinates.
         let margin =
             |axis: usize| 1.0 / self.size(0)[axis] as f64 + 1e-6 * low[axis].abs().max(high[axis].abs()).max(1.0);
         let (low, high) = ([0, 1].map(|axis| low[axis] - margin(axis)), [0, 1].map(|axis| high[axis] + margin(axis)));
         let span = |level: usize, axis: usize| (high[axis] - low[axis]) * self.size(level)[axis] as f64;
-        let fits = |&level: &usize| (0..2).all(|axis| span(level, axis) <= MOST);
+        let is_exact = |axis: usize| low[axis].abs().max(high[axis].abs()) * self.size(0)[axis] as f64 <= FARTHEST;
+        let fits = |&level: &usize| (0..2).all(|axis| span(level, axis) <= MOST && is_exact(axis));
         let Some(level) = (0..self.smallest()).find(fits) else {
             return self.texel(self.smallest(), [0, 0]) == [0.0; 3];
         };
