@@ -1,11 +1,17 @@
 //! Lights that have no triangles.
 
-/// A light without area (KHR_lights_punctual). It shines along −Z of its node.
+/// A light without area (KHR_lights_punctual). It shines along −Z of its node. The scale of the node changes neither its intensity nor its
+/// range nor its cone.
+///
+/// Numbers are radiometric and linear, as those of [`Material::emissive`](super::Material::emissive) are: with an intensity I, a surface at
+/// the distance d receives I/d² across the light's direction, and a matte one of albedo a reflects the radiance a/π · I/d² · cos θ.
+/// Photometric numbers serve as well if all lights and all emission are photometric: lux, candela and cd/m². A luminous efficacy of
+/// 683 lm/W converts them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
     /// Shape of the emission.
     pub kind: LightKind,
-    /// Linear colour times intensity: W/m² for a directional light (radiometric lux), W/sr for the others.
+    /// Linear colour times intensity: W/m² across the light's direction for a directional light, W/sr for the others.
     pub intensity: [f32; 3],
     /// Distance in metres at which the light has faded to nothing (as KHR_lights_punctual defines), or infinity for one that does not
     /// fade.
@@ -27,7 +33,8 @@ pub enum LightKind {
     Directional,
     /// Light of the same intensity in all directions.
     Point,
-    /// A cone: full intensity inside `inner`, none outside `outer` (half angles, radians).
+    /// A cone: full intensity inside `inner`, none outside `outer` (half angles, radians). In between, the intensity is
+    /// ((cos θ − cos `outer`) / (cos `inner` − cos `outer`))² of the full one.
     Spot {
         /// Half angle of the full cone.
         inner: f32,

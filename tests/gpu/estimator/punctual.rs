@@ -4,7 +4,7 @@ use super::{floor_points, from_above, images, tracer};
 use crate::common::plane::{V, dot, length, scale, sub};
 use crate::common::scenes::{lambert, quad, scene, shine};
 use asvgf::Sampling;
-use asvgf::scene::{LightKind, Scene};
+use asvgf::scene::{LightKind, Scene, Transform};
 use std::f64::consts::PI;
 
 const ALBEDO: f64 = 0.6;
@@ -79,6 +79,70 @@ fn a_spot_fades_from_its_inner_to_its_outer_angle() {
         plain * ((cosine - none) / (full - none)).clamp(0.0, 1.0).powi(2)
     };
     assert_floor_shows(lit_by(LightKind::Spot { inner, outer }, f32::INFINITY), expected, "spot");
+}
+
+#[test]
+fn a_spot_may_fade_all_the_way_or_reach_all_around() {
+    // From the axis to the horizon, the cone's part of the light is cos².
+    let whole = LightKind::Spot { inner: 0.0, outer: std::f32::consts::FRAC_PI_2 };
+    let expected = |p: V| {
+        let (plain, _, cosine) = falloff(p);
+        plain * cosine * cosine
+    };
+    assert_floor_shows(lit_by(whole, f32::INFINITY), expected, "spot of half a sphere");
+    let hard = LightKind::Spot { inner: 0.4, outer: 0.4 };
+    assert!(lit_by(hard, f32::INFINITY).validate().is_err());
+}
+
+#[test]
+fn a_narrow_spot_is_as_bright_in_its_middle_as_a_wide_one() {
+    // KHR_lights_punctual: the intensity is the brightness inside the inner angle. The spot lights 1 m of the floor from 100 m above.
+    let (inner, outer) = (0.003_f64, 0.01_f64);
+    let mut scene = unlit();
+    let place = [0.3, 100.0, 0.2];
+    let kind = LightKind::Spot { inner: inner as f32, outer: outer as f32 };
+    shine(&mut scene, kind, INTENSITY.map(|i| 1e4 * i), f32::INFINITY, place);
+    let image = images(scene, from_above(), tracer(Sampling::Both, 0), 1).remove(0);
+    for (color, point) in image.iter().zip(floor_points()) {
+        let way = sub(place.map(f64::from), point);
+        let angle = (way[0].hypot(way[2]) / way[1]).atan();
+        let cone = ((angle.cos() - outer.cos()) / (inner.cos() - outer.cos())).clamp(0.0, 1.0).powi(2);
+        let expected = f64::from(INTENSITY[0]) * 1e4 * ALBEDO / PI * angle.cos().powi(3) / (way[1] * way[1]) * cone;
+        let found = f64::from(color[0]);
+        // f32 leaves two digits of the difference of two cosines near 1.
+        assert!((found - expected).abs() < 0.01, "{point:?}: {found}, not {expected}");
+    }
+}
+
+#[test]
+fn the_scale_of_a_node_changes_neither_intensity_nor_range_nor_cone() {
+    let (inner, outer) = (0.15_f32, 0.5_f32);
+    for scale in [[3.0; 3], [0.01, 0.01, 0.01], [2.0, 5.0, 0.5], [-2.0, 1.0, 4.0]] {
+        let mut scene = lit_by(LightKind::Spot { inner, outer }, 1.9);
+        let plain = images(scene.clone(), from_above(), tracer(Sampling::Both, 0), 1).remove(0);
+        let node = scene.nodes.last_mut().unwrap();
+        let Transform::Trs { scale: own, .. } = &mut node.transform else { unreachable!() };
+        *own = scale;
+        let scaled = images(scene, from_above(), tracer(Sampling::Both, 0), 1).remove(0);
+        for (scaled, plain) in scaled.iter().zip(&plain) {
+            assert!((scaled[0] - plain[0]).abs() <= 1e-4 * plain[0] + 1e-6, "{scale:?}: {scaled:?}, not {plain:?}");
+        }
+    }
+}
+
+#[test]
+fn a_light_shines_along_minus_z_of_its_node() {
+    // A node that is mirrored along z takes −Z of its space upwards.
+    for (mirrored, lit) in [(false, true), (true, false)] {
+        for kind in [LightKind::Directional, LightKind::Spot { inner: 0.15, outer: 0.5 }] {
+            let mut scene = lit_by(kind, f32::INFINITY);
+            let node = scene.nodes.last_mut().unwrap();
+            let Transform::Trs { scale, .. } = &mut node.transform else { unreachable!() };
+            scale[2] = if mirrored { -1.0 } else { 1.0 };
+            let image = images(scene, from_above(), tracer(Sampling::Both, 0), 1).remove(0);
+            assert_eq!(image.iter().any(|color| color[0] > 0.0), lit, "{kind:?}, mirrored: {mirrored}");
+        }
+    }
 }
 
 #[test]
