@@ -132,7 +132,7 @@ fn animations_from_a_file() {
     assert_warnings(
         &loaded,
         &[
-            ("animations", "do not move a node"),
+            ("channels[6]", "/x is not read"),
             ("nodes[1]", "matrix"),
             ("channels[3]", "same target"),
             ("channels[5]", "morph targets"),

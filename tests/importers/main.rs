@@ -15,6 +15,7 @@ mod gltf_materials;
 mod gltf_mending;
 mod gltf_nodes;
 mod gltf_normal_maps;
+mod gltf_pointers;
 mod gltf_shapes;
 mod gltf_specular;
 mod image_io;

@@ -42,6 +42,7 @@ fn whole() -> Scene {
         cameras: vec![Perspective { fov_y: 1.0 }],
         environment: Some(Environment::uniform([1.0; 3])),
         animations: vec![Animation { name: String::new(), channels: vec![channel] }],
+        resting_factors: vec![(Target::Emission(0), [0.5; 3])],
     }
 }
 
@@ -121,6 +122,11 @@ fn every_rule_is_checked() {
     broken(channel(|channel| channel.target = Target::Emission(1)), element, "index 1");
     broken(channel(|channel| channel.target = Target::Weight { node: 1, target: 1 }), element, "index 1");
     broken(channel(|channel| channel.target = Target::Intensity(1)), element, "index 1");
+    broken(channel(|channel| channel.target = Target::EmissionColor(1)), element, "index 1");
+    broken(channel(|channel| channel.target = Target::IntensityColor(1)), element, "index 1");
+    broken(|scene| scene.resting_factors[0].0 = Target::Emission(1), "resting_factors[0]", "index 1");
+    broken(|scene| scene.resting_factors[0].0 = Target::Scale(0), "resting_factors[0]", "no factor");
+    broken(|scene| scene.resting_factors[0].1[2] = f32::NAN, "resting_factors[0]", "NaN");
     broken(channel(|channel| channel.times.clear()), element, "no key");
     broken(channel(|channel| channel.times[1] = 0.0), element, "do not increase");
     broken(channel(|channel| channel.times[1] = f32::NAN), element, "not finite");

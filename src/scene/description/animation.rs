@@ -20,7 +20,7 @@ pub struct Channel {
     pub interpolation: Interpolation,
     /// Key times in seconds, increasing, at least one.
     pub times: Vec<f32>,
-    /// One value per key: xyz for translation and scale, a quaternion for rotation, x for weights and factors.
+    /// One value per key: xyz for translation, scale and colours, a quaternion for rotation, x for weights and factors.
     /// [`Interpolation::CubicSpline`] has three per key: in-tangent, value, out-tangent.
     pub values: Vec<[f32; 4]>,
 }
@@ -51,8 +51,12 @@ pub enum Target {
     },
     /// Factor ≥ 0 on a material's emission.
     Emission(usize),
+    /// Factors ≥ 0 on the colour channels of a material's emission. They multiply [`Target::Emission`].
+    EmissionColor(usize),
     /// Factor ≥ 0 on a light's intensity.
     Intensity(usize),
+    /// Factors ≥ 0 on the colour channels of a light's intensity. They multiply [`Target::Intensity`].
+    IntensityColor(usize),
 }
 
 /// The curve of a [`Channel`] between its keys.
@@ -80,7 +84,11 @@ impl Target {
     pub(crate) fn node(self) -> Option<usize> {
         match self {
             Self::Translation(node) | Self::Rotation(node) | Self::Scale(node) => Some(node),
-            Self::Weight { .. } | Self::Emission(_) | Self::Intensity(_) => None,
+            Self::Weight { .. }
+            | Self::Emission(_)
+            | Self::EmissionColor(_)
+            | Self::Intensity(_)
+            | Self::IntensityColor(_) => None,
         }
     }
 }

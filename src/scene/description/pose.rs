@@ -22,12 +22,25 @@ impl Scene {
     /// Evaluates the hierarchy at `time` seconds of an animation. The animation repeats for ever: `time` is taken modulo
     /// [`Scene::duration`]. A curve holds its first value before its first key and its last value after its last key.
     ///
-    /// `None`, an index out of range, or a time that is not finite gives the rest pose (factors of 1).
+    /// `None`, an index out of range, or a time that is not finite gives the rest pose, with factors of 1 or
+    /// [`Scene::resting_factors`].
     pub fn pose(&self, animation: Option<usize>, time: f32) -> Pose {
         let mut locals: Vec<Local> = self.nodes.iter().map(|node| Local::new(node.transform)).collect();
         let mut weights: Vec<Vec<f32>> = self.nodes.iter().map(|node| self.resting_weights(node)).collect();
-        let mut emission = vec![[1.0; 3]; self.materials.len()];
-        let mut intensity = vec![[1.0; 3]; self.lights.len()];
+        // Strengths and colours, each of materials and of lights.
+        let mut factors =
+            [self.materials.len(), self.lights.len()].map(|count| [(); 2].map(|()| vec![[1.0; 3]; count]));
+        let mut factor = |target: Target, value: [f32; 3]| {
+            let ([[emission, emission_color], [intensity, intensity_color]], x) = (&mut factors, value[0]);
+            match target {
+                Target::Emission(material) => set(emission, material, |factor| *factor = [x; 3]),
+                Target::EmissionColor(material) => set(emission_color, material, |factor| *factor = value),
+                Target::Intensity(light) => set(intensity, light, |factor| *factor = [x; 3]),
+                Target::IntensityColor(light) => set(intensity_color, light, |factor| *factor = value),
+                Target::Translation(_) | Target::Rotation(_) | Target::Scale(_) | Target::Weight { .. } => {}
+            }
+        };
+        self.resting_factors.iter().for_each(|&(target, value)| factor(target, value));
 
         if let Some(playing) = animation.and_then(|index| self.animations.get(index)).filter(|_| time.is_finite()) {
             let time = looped(time, playing.duration());
@@ -42,11 +55,12 @@ impl Scene {
                             *weight = value.x.clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32
                         });
                     }),
-                    Target::Emission(material) => {
-                        set(&mut emission, material, |factor| *factor = [value.x.max(0.0) as f32; 3])
-                    }
-                    Target::Intensity(light) => {
-                        set(&mut intensity, light, |factor| *factor = [value.x.max(0.0) as f32; 3])
+                    Target::Emission(_)
+                    | Target::EmissionColor(_)
+                    | Target::Intensity(_)
+                    | Target::IntensityColor(_) => {
+                        let limited = value.truncate().clamp(DVec3::ZERO, DVec3::splat(f32::MAX.into()));
+                        factor(channel.target, limited.as_vec3().to_array())
                     }
                 }
             }
@@ -59,6 +73,7 @@ impl Scene {
             let parent = node.parent.and_then(|parent| world.get(parent)).copied().unwrap_or(DMat4::IDENTITY);
             world.push(parent * local.matrix());
         }
+        let [emission, intensity] = factors.map(product);
         Pose { world: world.iter().map(DMat4::to_cols_array_2d).collect(), weights, emission, intensity }
     }
 
@@ -146,6 +161,12 @@ impl Local {
             None => DMat4::from_scale_rotation_translation(self.scale, self.rotation, self.translation),
         }
     }
+}
+
+/// Products of strengths and colours, finite.
+fn product([strengths, colors]: [Vec<[f32; 3]>; 2]) -> Vec<[f32; 3]> {
+    let of = |(strength, color): ([f32; 3], [f32; 3])| [0, 1, 2].map(|c| (strength[c] * color[c]).min(f32::MAX));
+    strengths.into_iter().zip(colors).map(of).collect()
 }
 
 /// `time` within 0…`duration`, or 0 if nothing repeats.

@@ -1,6 +1,6 @@
 //! The whole scene.
 
-use super::{Animation, Environment, Image, Light, Material, Mesh, Node, Perspective, Skin};
+use super::{Animation, Environment, Image, Light, Material, Mesh, Node, Perspective, Skin, Target};
 
 /// Everything that the path tracer draws: geometry stored once per [`Mesh`], placed by [`Node`]s.
 #[derive(Clone, Debug, Default)]
@@ -23,6 +23,10 @@ pub struct Scene {
     pub environment: Option<Environment>,
     /// Motions. [`Scene::pose`] plays one of them.
     pub animations: Vec<Animation>,
+    /// Factors on the emission of materials and on the intensity of lights ([`Target::Emission`] and the three like it) where no channel
+    /// of the animation changes them; 1 for all others. A strength has three equal ones. A lamp that an animation lights up has its
+    /// greatest emission in its material and is darkened here, because the emission of a material decides how often a light is sampled.
+    pub resting_factors: Vec<(Target, [f32; 3])>,
 }
 
 impl Scene {

@@ -36,7 +36,13 @@ impl Scene {
             rule(open, || format!("{element}.fov_y"), || format!("{} is not between 0 and π", camera.fov_y))
         })?;
         self.environment.as_ref().map_or(Ok(()), check_environment)?;
-        each(&self.animations, "animations", |animation, element| self.check_animation(animation, element))
+        each(&self.animations, "animations", |animation, element| self.check_animation(animation, element))?;
+        each(&self.resting_factors, "resting_factors", |&(target, value), element| {
+            self.check_target(target, element)?;
+            let is_factor = !matches!(target, Target::Weight { .. }) && target.node().is_none();
+            rule(is_factor, || element.into(), || format!("{target:?} has no factor"))?;
+            non_negative(&value, || element.into())
+        })
     }
 
     fn check_mesh(&self, mesh: &Mesh, element: &str) -> Result<(), Broken> {
@@ -206,8 +212,10 @@ impl Scene {
     fn check_target(&self, target: Target, element: &str) -> Result<(), Broken> {
         let element = || format!("{element}.target");
         match target {
-            Target::Emission(material) => index(material, self.materials.len(), element),
-            Target::Intensity(light) => index(light, self.lights.len(), element),
+            Target::Emission(material) | Target::EmissionColor(material) => {
+                index(material, self.materials.len(), element)
+            }
+            Target::Intensity(light) | Target::IntensityColor(light) => index(light, self.lights.len(), element),
             Target::Weight { node, target } => {
                 index(node, self.nodes.len(), element)?;
                 index(target, self.target_count(&self.nodes[node]), element)

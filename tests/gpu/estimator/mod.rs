@@ -2,6 +2,8 @@
 
 mod agreement;
 mod area;
+#[cfg(feature = "gltf")]
+mod blinking;
 mod clearcoat;
 mod emissive_images;
 mod furnace;

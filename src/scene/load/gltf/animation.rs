@@ -12,7 +12,7 @@ use crate::scene::description::{Animation, Channel, Interpolation, Scene, Target
 use crate::scene::load::common::report::{Fault, Report};
 
 /// Maximum number of values of all channels of one file. The size of the file does not bound them, because channels may share accessors.
-const MAX_VALUES: usize = 1 << 25;
+pub(super) const MAX_VALUES: usize = 1 << 25;
 
 /// Reads all animations, which keep their indices. Channels of nodes outside the scene are left out.
 pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene, places: &Places) {
@@ -83,7 +83,7 @@ fn read_channel(
 }
 
 /// Reads the keys of a channel, of which each has a value for each target.
-fn read(
+pub(super) fn read(
     source: &Source<'_>,
     sampler: &Sampler,
     targets: &[Target],

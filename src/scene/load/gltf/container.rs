@@ -6,15 +6,17 @@ use gltf::json::Root;
 use serde_json::Value;
 
 use super::mend::mend;
+use super::pointer::{PointerChannel, extract};
 use super::text::tidy;
 use crate::scene::load::common::encoding;
 use crate::scene::load::common::recognise::foreign;
 use crate::scene::load::common::report::{Fault, Report};
 
 /// The extensions that are honoured.
-const READ: [&str; 13] = [
+const READ: [&str; 14] = [
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
+    "KHR_animation_pointer",
     "KHR_lights_punctual",
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
@@ -31,6 +33,8 @@ const READ: [&str; 13] = [
 /// An opened file.
 pub(super) struct Container<'a> {
     pub root: Root,
+    /// Animation channels that are not those of nodes.
+    pub pointers: Vec<PointerChannel>,
     /// The binary chunk of a GLB file.
     pub binary: Option<&'a [u8]>,
 }
@@ -38,10 +42,10 @@ pub(super) struct Container<'a> {
 /// Splits a `.gltf` or `.glb` file into its parts, whatever its name, and checks that it can be read at all.
 pub(super) fn open<'a>(bytes: &'a [u8], report: &mut Report) -> Result<Container<'a>, Fault> {
     let (json, binary) = if bytes.starts_with(b"glTF") { split(bytes, report)? } else { (bytes, None) };
-    let root = parse(json, report)?;
+    let (root, pointers) = parse(json, report)?;
     check_version(&root)?;
     check_extensions(&root, report)?;
-    Ok(Container { root, binary })
+    Ok(Container { root, pointers, binary })
 }
 
 /// The JSON chunk and the binary chunk of a GLB file.
@@ -93,7 +97,7 @@ fn split<'a>(bytes: &'a [u8], report: &mut Report) -> Result<(&'a [u8], Option<&
     Ok((json, binary))
 }
 
-fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
+fn parse(json: &[u8], report: &mut Report) -> Result<(Root, Vec<PointerChannel>), Fault> {
     let whole = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(json);
     // Writers pad chunks with zeros as well as with spaces.
     let end = whole.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
@@ -108,7 +112,8 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
         {
             warn_of_targets(&root, report);
         }
-        return Ok(root);
+        // A channel with a pointer has no node, without which the JSON reader refuses the file.
+        return Ok((root, Vec::new()));
     }
     let mut value = match serde_json::from_slice(json) {
         Ok(value) => value,
@@ -123,7 +128,8 @@ fn parse(json: &[u8], report: &mut Report) -> Result<Root, Fault> {
     };
     check_kind(&mut value, report)?;
     warn_of_targets(&value, report);
-    mend(value, report)
+    let pointers = extract(&mut value);
+    Ok((mend(value, report)?, pointers))
 }
 
 /// The value at the start of a text that continues with other characters.

@@ -46,10 +46,9 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
     let normals = source.normal_texture.as_ref();
     let (normal_texture, normal_scale) = normal_map::read(normals, &format!("{element}.normalTexture"), images, report);
     let emissive_texture = images.texture(&source.emissive_texture, &format!("{element}.emissiveTexture"), report);
-    let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
-    let strength = strength.map_or(1.0, |extension| extension.emissive_strength.0);
+    let (factor, strength) = emission(source);
     let strength = if strength >= 0.0 { strength } else { f32::NAN };
-    let emissive = source.emissive_factor.0.map(|factor| factor * strength);
+    let emissive = factor.map(|factor| factor * strength);
     let common = Material {
         name: source.name.clone().unwrap_or_default(),
         emissive: report.clamp_radiance(emissive, || format!("{element}.emissiveFactor")),
@@ -76,6 +75,12 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
         }
     };
     clearcoat::apply(source, material, element, images, report)
+}
+
+/// Colour and strength of the emission.
+pub(super) fn emission(source: &MaterialSource) -> ([f32; 3], f32) {
+    let extension = source.extensions.as_ref().and_then(|extensions| extensions.emissive_strength.as_ref());
+    (source.emissive_factor.0, extension.map_or(1.0, |extension| extension.emissive_strength.0))
 }
 
 fn metallic_roughness(

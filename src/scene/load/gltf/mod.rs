@@ -14,6 +14,7 @@ mod glossiness;
 mod image;
 mod instancing;
 mod light;
+mod light_animation;
 mod material;
 mod mend;
 mod mesh;
@@ -21,6 +22,7 @@ mod morph;
 mod node;
 mod normal_map;
 mod normals;
+mod pointer;
 mod skin;
 mod source;
 mod text;
@@ -51,11 +53,12 @@ fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fau
     let bytes = files.read(path).map_err(unreadable)?;
     let container = container::open(&bytes, report)?;
     let buffers = buffer::read_all(&container.root, container.binary, &folder, report);
-    let source = Source { root: container.root, buffers, folder };
+    let source = Source { root: container.root, pointers: container.pointers, buffers, folder };
 
     let mut scene = Scene::default();
     material::read_all(&source, report, &mut scene);
-    let places = node::read_all(&source, report, &mut scene);
+    let (places, lights) = node::read_all(&source, report, &mut scene);
     animation::read_all(&source, report, &mut scene, &places);
+    light_animation::read_all(&source, report, &mut scene, &lights);
     Ok(scene)
 }

@@ -16,8 +16,9 @@ use crate::scene::load::common::report::Report;
 /// A node and its parent, if it has one.
 type Link = (Index<NodeSource>, Option<Index<NodeSource>>);
 
-/// Reads the nodes of the default scene, and the meshes, lights and cameras that they place.
-pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> Places {
+/// Reads the nodes of the default scene, and the meshes, lights and cameras that they place. Returns the index in the scene of each node
+/// and of each light of the file.
+pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Scene) -> (Places, Vec<Option<usize>>) {
     let lights = light::read_all(source, report, scene);
     let cameras = camera::read_all(source, report, scene);
     let animated = animated(source);
@@ -73,7 +74,7 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
         }
     }
     Skins::find_joints(source, &animated, &mut places, report, scene);
-    places
+    (places, lights)
 }
 
 /// The meshes of a node, and the weights and the skin that shape them.

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use gltf::json::{Index, Root, buffer::View};
 
 use super::buffer::Buffer;
+use super::pointer::PointerChannel;
 use crate::scene::load::common::folder::Folder;
 use crate::scene::load::common::report::Fault;
 
@@ -14,6 +15,8 @@ pub(super) type Places = HashMap<usize, usize>;
 /// An opened file: its JSON, its bytes and its folder.
 pub(super) struct Source<'a> {
     pub root: Root,
+    /// Animation channels that are not those of nodes.
+    pub pointers: Vec<PointerChannel>,
     pub buffers: Vec<Buffer>,
     pub folder: Folder<'a>,
 }
