@@ -9,12 +9,12 @@
 //! A second table has the cost of each feature for a scene that has next to nothing of it: a speck that nobody sees.
 
 use asvgf::scene::{
-    self, Alpha, Environment, GpuScene, Image, Light, LightKind, Material, Mesh, Node, Scene, Texture, builtin,
+    Alpha, Environment, GpuScene, Image, Light, LightKind, Material, Mesh, Node, Scene, Texture, builtin,
 };
 use asvgf::{DenoiserDescriptor, FilterSettings, Frame, Gradient, Settings, Specialize};
+use asvgf_fallbacks::shipped;
 use asvgf_programs::film::Film;
 use asvgf_programs::gpu::Gpu;
-use asvgf_programs::program::repository;
 use asvgf_programs::times::{Clock, Stopwatch, median};
 
 const SIZE: [u32; 2] = [320, 180];
@@ -119,12 +119,10 @@ fn main() {
     }
 }
 
-/// Returns a built-in scene, or the one with textures.
+/// Returns a built-in scene or a shipped one.
 fn scene_of(name: &str, animation: &str) -> Scene {
-    builtin::scene(name, animation).unwrap_or_else(|| {
-        let room = repository().join("assets/textured/room.glb");
-        scene::load(&room).expect("the crate's own scene").scene
-    })
+    builtin::scene(name, animation)
+        .unwrap_or_else(|| shipped::load(name).expect("a shipped scene").expect("a scene that loads").scene)
 }
 
 /// Measures dispatches, bytes per pixel, and milliseconds of a frame and of the first frame.

@@ -10,11 +10,11 @@ import argparse
 import base64
 import json
 import math
-import subprocess
 from pathlib import Path
 
 import mitsuba as mi
 import numpy as np
+from mitsuba_common import blocks, ours, sensor, write
 
 mi.set_variant('scalar_rgb')  # llvm_ad_rgb is faster if LLVM is installed
 EYE, TARGET, FOV_Y = [0.0, 1.1, 3.2], [0.0, 0.35, 0.0], 40.0
@@ -109,12 +109,7 @@ def mitsuba(size, samples, out):
         # Boundaries count as bounces there.
         'integrator': {'type': 'path', 'max_depth': 40, 'rr_depth': 1000},
         'sky': {'type': 'constant', 'radiance': 1.0},
-        'sensor': {
-            'type': 'perspective', 'fov': FOV_Y, 'fov_axis': 'y',
-            'to_world': mi.ScalarTransform4f().look_at(origin=EYE, target=TARGET, up=[0, 1, 0]),
-            'film': {'type': 'hdrfilm', 'width': size[0], 'height': size[1], 'rfilter': {'type': 'box'}, 'pixel_format': 'rgb', 'component_format': 'float32'},
-            'sampler': {'type': 'independent', 'sample_count': samples},
-        },
+        'sensor': sensor(EYE, TARGET, FOV_Y, size, samples),
     }
     for number, ((positions, normals, triangles), material) in enumerate(shapes()):
         mesh = mi.Mesh(f'shape{number}', len(positions), len(triangles), has_vertex_normals=True)
@@ -129,25 +124,6 @@ def mitsuba(size, samples, out):
     return np.array(mi.render(mi.load_dict(scene), spp=samples))
 
 
-def ours(render, size, samples, out):
-    mi.Bitmap(np.ones((2, 4, 3), np.float32)).write(str(out / 'sky.exr'))
-    look = lambda place: ','.join(map(str, place))
-    # The samples of a pixel lie all over it, as Mitsuba's do, if frames are jittered; each frame has a part of them.
-    frames = 32
-    subprocess.run([
-        render, out / 'scene.gltf', '--environment', out / 'sky.exr', '--size', f'{size[0]}x{size[1]}', '--frames', str(frames),
-        '--spp', str(max(samples // frames, 1)), '--jitter', '--bounces', '36', f'--eye={look(EYE)}', f'--target={look(TARGET)}',
-        '--fov-y', str(FOV_Y), '--outputs', 'noisy', '--format', 'exr', '--out', out / 'ours',
-    ], check=True, stdout=subprocess.DEVNULL)
-    images = sorted((out / 'ours').glob('noisy_*.exr'))
-    return np.mean([np.array(mi.Bitmap(str(image)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32)) for image in images], 0)
-
-
-def blocks(image):
-    height, width = (side // 4 * 4 for side in image.shape[:2])
-    return image[:height, :width].reshape(height // 4, 4, width // 4, 4, 3).mean((1, 3, 4))
-
-
 def main():
     arguments = argparse.ArgumentParser()
     arguments.add_argument('out', type=Path)
@@ -158,10 +134,12 @@ def main():
     size = [int(side) for side in given.size.split('x')]
     given.out.mkdir(parents=True, exist_ok=True)
     write_gltf(given.out / 'scene.gltf')
-    a, b = ours(given.render, size, given.samples, given.out), mitsuba(size, given.samples, given.out)
-    for name, image in (('ours', a), ('mitsuba', b)):
-        mi.Bitmap(image.astype(np.float32)).write(str(given.out / f'{name}.exr'))
-        mi.util.write_bitmap(str(given.out / f'{name}.png'), image.astype(np.float32))
+    mi.Bitmap(np.ones((2, 4, 3), np.float32)).write(str(given.out / 'sky.exr'))
+    look = lambda place: ','.join(map(str, place))
+    a = ours(given.render, given.out / 'scene.gltf', size, given.samples, given.out / 'ours', '--bounces', '36',
+             '--environment', given.out / 'sky.exr', f'--eye={look(EYE)}', f'--target={look(TARGET)}', '--fov-y', str(FOV_Y)).mean(0)
+    b = mitsuba(size, given.samples, given.out)
+    write(given.out, ours=a, mitsuba=b)
     apart = np.abs(blocks(a) - blocks(b)) / blocks(b)
     # The frosted ball is in the right third. Mitsuba's loses the light that one scattering loses.
     for name, part in (('smooth glass', apart[:, :apart.shape[1] * 5 // 8]), ('frosted glass', apart[:, apart.shape[1] * 5 // 8:])):

@@ -5,6 +5,7 @@ use crate::render::options::{Options, Source, Viewpoint};
 use asvgf::Camera;
 use asvgf::scene::{self, Environment, Loaded, Pose, Scene, Warning, builtin};
 use asvgf_fallbacks::framing::{bounds, framing};
+use asvgf_fallbacks::shipped;
 use asvgf_fallbacks::sky::{is_dark, sky};
 use glam::DVec3;
 use std::error::Error;
@@ -32,7 +33,7 @@ impl Stage {
     pub fn load(options: &Options) -> Result<Self, Box<dyn Error>> {
         let Loaded { mut scene, warnings, .. } = read(options)?;
         tell(&warnings);
-        if let Source::File(_) = &options.source {
+        if !matches!(options.source, Source::BuiltIn(_)) {
             scene = choose_animation(scene, options.animation.as_deref())?;
         }
         if options.environment.as_deref() == Some(Path::new("sky")) {
@@ -83,6 +84,9 @@ pub fn read(options: &Options) -> Result<Loaded, Box<dyn Error>> {
             let scene = builtin::scene(name, animation);
             let scene = scene.ok_or_else(|| Usage(format!("{name}: no such built-in scene")))?;
             Loaded::from(scene)
+        }
+        Source::Shipped(name) => {
+            shipped::load(name).ok_or_else(|| Usage(format!("{name}: no such shipped scene")))??
         }
         Source::File(path) => scene::load(path)?,
     };

@@ -34,5 +34,6 @@ mod obj_wild;
 mod paths;
 mod properties;
 mod scene;
+mod shipped;
 mod strangers;
 mod wild;

@@ -8,6 +8,7 @@ use crate::{plan, shortcuts, views};
 use asvgf::plan::Plan;
 use asvgf::scene::builtin;
 use asvgf::{FilterSettings, Gradient, Setting, SettingKind, Settings, TracerSettings, ViewOptions};
+use asvgf_fallbacks::shipped;
 use eframe::egui::{Button, ComboBox, ScrollArea, Slider, TextEdit, Ui};
 use std::path::PathBuf;
 
@@ -153,7 +154,7 @@ fn motion(ui: &mut Ui, state: &mut State, stage: &Stage) {
 
 fn scene(ui: &mut Ui, state: &State, fields: &mut Fields, actions: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
-        for name in builtin::NAMES {
+        for name in builtin::NAMES.into_iter().chain(shipped::NAMES) {
             if ui.selectable_label(state.scene == name, name).clicked() {
                 actions.push(Action::Open(name.into()));
             }

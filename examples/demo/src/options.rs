@@ -10,8 +10,8 @@ Shows a path-traced scene in a window, denoised live with a constant and an adap
 
 Usage: cargo run --release -p asvgf-demo -- [SCENE] [OPTIONS]
 
-  SCENE                 a .gltf, .glb or .obj file, or a built-in scene: cornell, pillars
-                                                                        [cornell]
+  SCENE                 a .gltf, .glb or .obj file, or a scene that comes along: cornell,
+                        pillars, gloss, textured, still-life                 [cornell]
   --state FILE          start with a saved state
   --size WxH            the window in points                                 [1280x800]
   --screenshot FILE     write the window to a PNG file and end

@@ -5,12 +5,16 @@ use crate::state::Motion;
 use asvgf::Camera;
 use asvgf::scene::{self, Animation, Loaded, Pose, Scene, SceneError, builtin};
 use asvgf_fallbacks::framing::{bounds, framing};
+use asvgf_fallbacks::shipped;
 use asvgf_fallbacks::sky::{is_dark, sky};
 use glam::{DMat4, DVec3, Vec3};
 use std::path::Path;
 
 /// Seconds for which a blinking lamp is on, and then off.
 const BLINK: f32 = 1.0;
+
+/// Animations that the demo makes of others: these are kept separate, so that any combination can play. Blinking lamps need no animation.
+const COMPOSED: [&str; 3] = ["static", "blink", "all"];
 
 /// Name of the animation that moves a built-in scene's own camera.
 const CAMERA: &str = "move-camera";
@@ -31,18 +35,23 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Opens a built-in scene or a file. The error is a text for the user.
+    /// Opens a built-in scene, a shipped file or any other file. The error is a text for the user.
     pub fn open(name: &str) -> Result<Self, String> {
-        match Self::built_in(name) {
-            Some(stage) => Ok(stage),
+        if let Some(stage) = Self::built_in(name) {
+            return Ok(stage);
+        }
+        match shipped::load(name) {
+            Some(file) => Self::loaded(file.map(|mut loaded| {
+                loaded.scene.animations.retain(|animation| !COMPOSED.contains(&animation.name.as_str()));
+                loaded
+            })),
             None => Self::loaded(scene::load(name)),
         }
     }
 
     fn built_in(name: &str) -> Option<Self> {
         let mut scene = builtin::scene(name, "all")?;
-        // The animations are kept separate, so that any combination can play. Blinking lamps need no animation.
-        let single = builtin::animations(name).iter().copied().filter(|n| !["static", "blink", "all"].contains(n));
+        let single = builtin::animations(name).iter().copied().filter(|n| !COMPOSED.contains(n));
         scene.animations = single.filter_map(|n| builtin::scene(name, n)).flat_map(|s| s.animations).collect();
         let object =
             scene.nodes.iter().position(|node| ["tall block", "block", "gold ball"].contains(&node.name.as_str()));

@@ -2,6 +2,7 @@
 
 use crate::render::options::{Options, Source};
 use asvgf::scene::{Alpha, Interior, Loaded, Material, Mesh, Scene, Texture, builtin};
+use asvgf_fallbacks::shipped;
 use std::fmt::Write as _;
 
 /// Lists the built-in scenes, and the contents of the given scene.
@@ -11,8 +12,9 @@ pub fn list(options: &Options, loaded: &Loaded) -> String {
     for name in builtin::NAMES {
         let _ = writeln!(out, "  {name:<8} with the animations {}", builtin::animations(name).join(", "));
     }
+    let _ = writeln!(out, "Files that come along: {}", shipped::NAMES.join(", "));
     let name = match &options.source {
-        Source::BuiltIn(name) => name.clone(),
+        Source::BuiltIn(name) | Source::Shipped(name) => name.clone(),
         Source::File(path) => path.display().to_string(),
     };
     let _ = writeln!(out, "\n{name}");

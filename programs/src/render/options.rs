@@ -3,6 +3,7 @@
 use crate::arguments::{Format, Usage, Value};
 use asvgf::scene::builtin;
 use asvgf::{Gradient, Mode, Settings, View};
+use asvgf_fallbacks::shipped;
 use lexopt::ValueExt as _;
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -18,10 +19,10 @@ Without any argument: frames 30 to 61 of the built-in scene `cornell`, and a com
 (--compare) of the last one, just after the lamp came back on.
 
 Scene
-  SCENE                 a .gltf, .glb or .obj file, or a built-in scene: cornell, pillars
-                                                                        [cornell]
+  SCENE                 a .gltf, .glb or .obj file, or a scene that comes along: cornell,
+                        pillars, gloss, textured, still-life                    [cornell]
   --animation NAME      name or number (from 0) of an animation, or static
-                                  [built-in scenes: all; files: the first, if any]
+                             [cornell, pillars, gloss: all; files: the first, if any]
   --environment FILE    light from all around: HDR, EXR, PNG, JPEG …, equirectangular;
                         or sky, a cloudy one            [sky, if the scene has no light]
   --cull                leave out the back faces of materials that are not double-sided, as
@@ -106,6 +107,8 @@ pub enum Request {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     BuiltIn(String),
+    /// A file that comes along with the programs.
+    Shipped(String),
     File(PathBuf),
 }
 
@@ -376,10 +379,13 @@ fn scene_source(text: OsString) -> Result<Source, Usage> {
     if let Some(name) = text.to_str().filter(|name| builtin::NAMES.contains(name)) {
         return Ok(Source::BuiltIn(name.into()));
     }
+    if let Some(name) = text.to_str().filter(|name| shipped::NAMES.contains(name)) {
+        return Ok(Source::Shipped(name.into()));
+    }
     let path = PathBuf::from(text);
     if path.extension().is_none() && !path.exists() {
-        let (name, known) = (path.display(), builtin::NAMES.join(", "));
-        return Err(Usage(format!("{name}: no such scene; built-in are {known}, files end in .gltf, .glb or .obj")));
+        let (name, known) = (path.display(), [&builtin::NAMES[..], &shipped::NAMES].concat().join(", "));
+        return Err(Usage(format!("{name}: no such scene; known are {known}, files end in .gltf, .glb or .obj")));
     }
     Ok(Source::File(path))
 }

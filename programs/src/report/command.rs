@@ -16,8 +16,9 @@ With `--features flip` (which needs a C++ compiler) the report has FLIP and its 
 
   --suite NAME          quick: three sequences and a choice of methods, in minutes on a
                         software adapter; full: everything                      [quick]
-  --scene SCENE         only this scene: cornell, pillars, textured, or a .gltf, .glb or
-                        .obj file with its first animation          [the suite's scenes]
+  --scene SCENE         only this scene: cornell, pillars, gloss, textured, still-life,
+                        or a .gltf, .glb or .obj file with its first animation
+                                                                    [the suite's scenes]
   --animations NAMES    only these, separated by commas, as in static,blink
                                                              [the suite's animations]
   --methods NAMES       only these, separated by commas, as in 1 spp,a-svgf

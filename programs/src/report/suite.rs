@@ -1,23 +1,21 @@
 //! Suites: sequences, methods, and quality of the measurement.
 
-use crate::program::repository;
 use crate::render::options::Source;
 use crate::report::methods::{self, Method};
 use asvgf::scene::builtin::{ANIMATIONS, GLOSS_ANIMATIONS};
+use asvgf_fallbacks::shipped;
 use std::path::Path;
 
 /// Frame of the turn of the built-in scenes' lamps and paths: blinking lamps go out, moving ones go back.
 pub const TURN: u32 = 30;
 
-/// Scene with textures, a mask and gloss.
-const TEXTURED: &str = "assets/textured/room.glb";
-
 /// Scenes and their animations, the most informative first.
-const SCENES: [(&str, &[&str]); 4] = [
+const SCENES: [(&str, &[&str]); 5] = [
     ("cornell", &ANIMATIONS),
     ("pillars", &ANIMATIONS),
     ("gloss", &GLOSS_ANIMATIONS),
     ("textured", &["static", "move-camera"]),
+    ("still-life", &["sway", "blink", "move-camera", "all"]),
 ];
 
 /// Number of a scene's animations in the quick suite.
@@ -100,7 +98,7 @@ impl Suite {
 /// Returns the sequences of a scene, one for each animation.
 fn sequences(scene: &str, animations: &[&str]) -> Vec<Sequence> {
     let source = match scene {
-        "textured" => Source::File(repository().join(TEXTURED)),
+        _ if shipped::NAMES.contains(&scene) => Source::Shipped(scene.into()),
         _ => Source::BuiltIn(scene.into()),
     };
     let sequence = |animation: &&str| Sequence {

@@ -14,5 +14,6 @@ mod pauses;
 mod recording;
 mod refusals;
 mod see_through;
+mod shipped;
 mod still;
 mod views;
