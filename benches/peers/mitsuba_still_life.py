@@ -28,7 +28,7 @@ COVERED, CAUSTIC = 0.9, 0.005
 def mitsuba(gltf, size, samples, own_maps):
     """Images of `PASS` samples each."""
     scene, _ = load(gltf, size, PASS, own_maps=own_maps)
-    return np.array([np.array(mi.render(scene, spp=PASS, seed=seed)) for seed in range(samples // PASS)])
+    return np.array([np.array(mi.render(scene, spp=PASS, seed=seed)) for seed in range(max(samples // PASS, 2))])
 
 
 def seen(gltf, size):
