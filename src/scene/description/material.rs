@@ -154,7 +154,7 @@ impl Interior {
 
     /// A body that leaves this part of light, each above 0 and at most 1, over this length above 0.
     pub fn absorbing(index: f32, color: [f32; 3], length: f32) -> Self {
-        Self { index, absorption: Some(color.map(|left| -left.ln() / length)) }
+        Self { index, absorption: Some(color.map(|left| (1.0 / left).ln() / length)) }
     }
 }
 
