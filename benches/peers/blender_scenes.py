@@ -310,7 +310,8 @@ def prepare(samples):
     current.view_settings.view_transform = 'Raw'
     cycles = current.cycles
     cycles.samples, cycles.use_denoising, cycles.use_adaptive_sampling = samples, False, False
-    cycles.pixel_filter_type, cycles.filter_width = 'BOX', 0.01
+    # A box filter would ignore its width.
+    cycles.pixel_filter_type, cycles.filter_width = 'GAUSSIAN', 0.01
     cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = 4
     cycles.sample_clamp_indirect = cycles.blur_glossy = 0
 

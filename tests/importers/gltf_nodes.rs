@@ -125,3 +125,28 @@ fn cameras_look_along_their_node() {
     assert_eq!(scene.camera_view(&scene.pose(None, 0.0), 1), None);
     assert_eq!(scene.camera_view(&scene.pose(None, 0.0), 99), None);
 }
+
+#[test]
+fn hidden_nodes_are_not_drawn() {
+    let hidden = |visible: Value, warnings: &[(&str, &str)]| {
+        let mut gltf = with_nodes(
+            json!([
+                {"mesh": 0, "children": [1], "extensions": {"KHR_node_visibility": {"visible": visible}}},
+                {"children": [2], "extensions": {"KHR_node_visibility": {"visible": true}}},
+                {"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                {"mesh": 0, "extensions": {"KHR_node_visibility": {}}},
+            ]),
+            json!([{"nodes": [0, 3]}]),
+        );
+        gltf.json["extensionsUsed"] = json!(["KHR_node_visibility", "KHR_lights_punctual"]);
+        gltf.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 1}]}});
+        let loaded = gltf.load().unwrap();
+        let units = ("KHR_lights_punctual.lights[0]", "photometric units");
+        assert_warnings(&loaded, &[&[units], warnings].concat());
+        (loaded.scene.triangle_count(), loaded.scene.nodes.iter().filter(|node| node.light.is_some()).count())
+    };
+    assert_eq!(hidden(json!(true), &[]), (3, 1));
+    assert_eq!(hidden(json!(false), &[]), (1, 0), "and all below is hidden, too");
+    let broken = [("nodes[0].KHR_node_visibility.visible", "0 is neither true nor false; the node is drawn")];
+    assert_eq!(hidden(json!(0), &broken), (3, 1));
+}

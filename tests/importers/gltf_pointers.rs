@@ -197,13 +197,3 @@ fn a_lamp_that_never_shines_and_one_that_is_too_bright_are_sound() {
         assert!(factors.iter().all(|factor| factor.is_finite()), "{factors:?} at {time}");
     }
 }
-
-#[test]
-fn a_node_that_is_hidden_is_drawn_and_named() {
-    let mut gltf = Gltf::triangle();
-    gltf.json["extensionsUsed"] = json!(["KHR_node_visibility"]);
-    gltf.json["nodes"][0]["extensions"] = json!({"KHR_node_visibility": {"visible": false}});
-    let loaded = gltf.load().unwrap();
-    assert_warnings(&loaded, &[("KHR_node_visibility", "is not read")]);
-    assert_eq!(loaded.scene.triangle_count(), 1);
-}

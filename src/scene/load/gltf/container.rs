@@ -13,7 +13,7 @@ use crate::scene::load::common::recognise::foreign;
 use crate::scene::load::common::report::{Fault, Report};
 
 /// The extensions that are honoured.
-const READ: [&str; 14] = [
+const READ: [&str; 15] = [
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
     "KHR_animation_pointer",
@@ -27,6 +27,7 @@ const READ: [&str; 14] = [
     "KHR_materials_unlit",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 ];
 

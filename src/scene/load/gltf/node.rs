@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use gltf::json::{Index, Node as NodeSource};
+use serde_json::Value;
 
 use super::instancing::instances;
 use super::mesh::Meshes;
@@ -25,11 +26,17 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
     let mut shapes = Shapes { source, meshes: Meshes::new(source), skins: Skins::default() };
     let mut places = Places::new();
     let mut placed = 0;
+    let mut hidden = HashSet::new();
 
     for (index, parent) in ordered(source, report) {
         let element = format!("nodes[{index}]");
         let Ok(node) = source.get(index, &element) else { continue };
+        let is_hidden = is_hidden(node, &element, report) || parent.is_some_and(|p| hidden.contains(&p.value()));
+        if is_hidden {
+            hidden.insert(index.value());
+        }
         let light = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
+        let light = light.filter(|_| !is_hidden);
         let light = light.and_then(|light| {
             let found = lookup(light::listed(source), light.light, &format!("{element}.light"));
             found.map_err(|fault| report.replace(fault, "it is left out")).ok()?;
@@ -43,7 +50,8 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
         let transform = transform(node, &element, report);
         let transform =
             if animated.contains(&index.value()) { separate(transform, &element, report) } else { transform };
-        let Shaped { meshes, weights, skin } = shapes.of(node, &element, report, scene);
+        let Shaped { meshes, weights, skin } =
+            if is_hidden { Shaped::default() } else { shapes.of(node, &element, report, scene) };
         let place = scene.nodes.len();
         places.insert(index.value(), place);
         let name = node.name.clone().unwrap_or_default();
@@ -75,6 +83,21 @@ pub(super) fn read_all(source: &Source<'_>, report: &mut Report, scene: &mut Sce
     }
     Skins::find_joints(source, &animated, &mut places, report, scene);
     (places, lights)
+}
+
+/// True if a node says that it and all below it are not drawn (KHR_node_visibility).
+fn is_hidden(node: &NodeSource, element: &str, report: &mut Report) -> bool {
+    let others = node.extensions.as_ref().map(|extensions| &extensions.others);
+    let Some(extension) = others.and_then(|others| others.get("KHR_node_visibility")) else { return false };
+    match extension.get("visible") {
+        None => false,
+        Some(Value::Bool(visible)) => !visible,
+        Some(other) => {
+            let reason = format!("{other} is neither true nor false; the node is drawn");
+            report.warn(format!("{element}.KHR_node_visibility.visible"), reason);
+            false
+        }
+    }
 }
 
 /// The meshes of a node, and the weights and the skin that shape them.
