@@ -32,7 +32,33 @@ pub struct Scene {
 impl Scene {
     /// Removes the back faces of all materials that are not [`double_sided`](Material::double_sided), as rasterizers do. Models whose
     /// outlines are hulls turned inside out need this, and rooms that are seen from outside.
+    ///
+    /// The skin of a body of glass keeps its back faces, because light leaves the body through them.
     pub fn cull_back_faces(&mut self) {
-        self.materials.iter_mut().for_each(|material| material.culled = !material.double_sided);
+        for material in &mut self.materials {
+            let is_skin = material.transmits() && material.interior.absorption.is_some();
+            material.culled = !material.double_sided && !is_skin;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::description::Interior;
+
+    #[test]
+    fn light_leaves_a_body_whose_back_faces_would_be_culled() {
+        let glass = |absorption| Material { interior: Interior { index: 1.5, absorption }, ..Default::default() };
+        let materials = vec![
+            Material { transmission: 1.0, ..glass(Some([0.0; 3])) },
+            Material { transmission: 1.0, ..glass(None) },
+            glass(Some([0.0; 3])),
+            Material { double_sided: true, ..Default::default() },
+        ];
+        let mut scene = Scene { materials, ..Default::default() };
+        scene.cull_back_faces();
+        let culled: Vec<bool> = scene.materials.iter().map(|material| material.culled).collect();
+        assert_eq!(culled, [false, true, true, false]);
     }
 }
