@@ -96,6 +96,19 @@ fn illumination_models() {
     assert_eq!(material("illum 7\nNs 10\nPr 0.5\n").scene.materials[0].roughness, 0.5);
     let tinted = &material("illum 6\nNi 1.33\nTf 1 0.5 0.25\n").scene.materials[0];
     assert_eq!((tinted.base_color, tinted.interior.index), ([1.0, 0.5, 0.25, 1.0], 1.33));
+    assert_eq!(material("illum 4\nNi 5\n").scene.materials[0].interior.index, 5.0);
+    for index in ["0", "1", "10.5"] {
+        let loaded = material(&format!("illum 4\nNi {index}\n"));
+        let reason = format!("Ni {index} is not above 1 and at most 10; 1.5 is used");
+        assert_warnings(&loaded, &[("material \"m\"", reason.as_str())]);
+        assert_eq!(loaded.scene.materials[0].interior.index, 1.5);
+    }
+    let black = material("illum 4\nTf 0 0 0\n");
+    assert_warnings(
+        &black,
+        &[("material \"m\"", "Tf is black, and no light would go through the glass; white is used")],
+    );
+    assert_eq!(black.scene.materials[0].base_color, [1.0; 4]);
     // One defect gives one warning.
     assert_warnings(&material("illum 9\nd 0.75\nTf 1 0 0\n"), &[("m", "illum 9 (glass) does not refract")]);
     assert_warnings(&material("illum 2\nTf 1 1 1\n"), &[]);

@@ -173,7 +173,7 @@ impl Source {
     }
 
     fn index(&self) -> f32 {
-        self.refraction.filter(|index| *index > 1.0 && *index <= 4.0).unwrap_or(GLASS)
+        self.refraction.filter(|index| *index > 1.0 && *index <= Interior::MOST_INDEX).unwrap_or(GLASS)
     }
 
     /// The use of opacity. Nothing else decides it.
@@ -225,13 +225,22 @@ impl Source {
 
     /// Glass and coloured transmission.
     fn transmission(&self, model: Model, material: Material, element: &str, report: &mut Report) -> Material {
-        let filter = self.transmission.filter(|&filter| filter != [0.0; 3]).unwrap_or([1.0; 3]);
+        let filter = self.transmission.unwrap_or([1.0; 3]);
         match model {
             Model::Glass(model) if material.alpha == Alpha::Blend => {
                 report.warn(element, format!("illum {model} (glass) does not refract"));
                 material
             }
             Model::Glass(_) => {
+                let index = self.index();
+                if let Some(given) = self.refraction.filter(|&given| given != index) {
+                    let most = Interior::MOST_INDEX;
+                    report.warn(element, format!("Ni {given} is not above 1 and at most {most}; {index} is used"));
+                }
+                if strongest(filter) <= 0.0 {
+                    report.warn(element, "Tf is black, and no light would go through the glass; white is used");
+                }
+                let filter = if strongest(filter) > 0.0 { filter } else { [1.0; 3] };
                 let [r, g, b] = unit_color(filter, element, report);
                 // Glass scatters nothing, whatever Kd says.
                 Material {
@@ -240,11 +249,11 @@ impl Source {
                     metallic: 0.0,
                     metallic_roughness_texture: None,
                     transmission: 1.0,
-                    interior: Interior { index: self.index(), absorption: None },
+                    interior: Interior { index, absorption: None },
                     ..material
                 }
             }
-            _ if filter != [1.0; 3] => {
+            _ if filter != [1.0; 3] && filter != [0.0; 3] => {
                 report.warn(element, "Tf (coloured transmission) is not read");
                 material
             }
