@@ -106,6 +106,10 @@ fn glass_that_is_wrong_costs_itself() {
     assert_eq!(of(distance, "attenuationDistance", "0 is not above 0; the volume absorbs nothing"), Some([0.0; 3]));
     let color = json!({"thicknessFactor": 1, "attenuationDistance": 1, "attenuationColor": [2, 1, 1]});
     assert_eq!(of(color, "attenuationColor", "2 is outside 0…1"), Some([0.0; 3]));
+    let mut blended = Gltf::textured_triangle();
+    let skin = body(json!({"thicknessFactor": 1}));
+    blended.push("materials", json!({"extensions": skin, "alphaMode": "BLEND"}));
+    assert_warnings(&blended.load().unwrap(), &[("materials[0].alphaMode", "the body is drawn whole")]);
     let alone = json!({"KHR_materials_volume": {"thicknessFactor": 1}});
     let opaque = scene(alone, &[("KHR_materials_volume", "no effect without KHR_materials_transmission")]);
     assert_eq!(opaque.materials[0].transmission, 0.0);

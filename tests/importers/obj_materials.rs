@@ -1,6 +1,7 @@
 //! MTL files: materials.
 
-use asvgf::scene::Alpha;
+use asvgf::scene::{Alpha, Loaded, Mesh};
+use glam::Vec3;
 
 use crate::common::*;
 use crate::obj::{SQUARE, material, read};
@@ -84,7 +85,7 @@ fn illumination_models() {
     }
     for glass in ["4", "6", "7", "9"] {
         let loaded = made(glass);
-        let open = [("object \"\"", "its glass encloses no body; it is drawn as a pane that does not refract")];
+        let open = [("object \"\"", "faces of its glass enclose no body; they are drawn as panes")];
         assert_warnings(&loaded, if ["6", "7"].contains(&glass) { &open } else { &[] });
         let material = &loaded.scene.materials[0];
         assert_eq!((material.metallic, material.alpha), (0.0, Alpha::Opaque), "no mirror");
@@ -145,12 +146,74 @@ fn closed_glass_is_a_body() {
     let turned = [&OUTWARDS[..5], &[INWARDS[5]]].concat();
     for faces in [&OUTWARDS[1..], &turned] {
         let loaded = read(cube(faces), mtl).unwrap();
-        assert_warnings(&loaded, &[("object \"cube\"", "its glass encloses no body; it is drawn as a pane")]);
+        assert_warnings(&loaded, &[("object \"cube\"", "faces of its glass enclose no body; they are drawn as panes")]);
         let material = &loaded.scene.materials[loaded.scene.meshes[0].material];
         assert_eq!((material.interior.absorption, material.base_color), (None, [0.25, 1.0, 0.64, 1.0]));
     }
     let thin = read(cube(&OUTWARDS), mtl.replace("illum 7", "illum 4")).unwrap();
     assert_eq!(thin.scene.materials[thin.scene.meshes[0].material].interior.absorption, None, "4 does not refract");
+}
+
+/// Signed volume of the triangles whose material is a body.
+fn volume_of_bodies(loaded: &Loaded) -> f32 {
+    let scene = &loaded.scene;
+    let of_mesh = |mesh: &Mesh| {
+        let corner = |&[a, b, c]: &[u32; 3]| {
+            let [a, b, c] = [a, b, c].map(|corner| Vec3::from(mesh.positions[corner as usize]));
+            a.dot(b.cross(c)) / 6.0
+        };
+        mesh.triangles.iter().map(corner).sum::<f32>()
+    };
+    let is_body = |mesh: &&Mesh| scene.materials[mesh.material].interior.absorption.is_some();
+    scene.meshes.iter().filter(is_body).map(of_mesh).sum()
+}
+
+/// A cube of this size from this corner on, with faces in this order.
+fn moved_cube(first: usize, low: f32, size: f32, faces: &[&str]) -> String {
+    let corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]];
+    let vertex = |corner: [i32; 3]| {
+        let [x, y, z] = corner.map(|c| low + size * c as f32);
+        format!("v {x} {y} {z}\n")
+    };
+    let face = |face: &&str| {
+        let shifted: Vec<_> = face.split(' ').map(|i| (i.parse::<usize>().unwrap() + first).to_string()).collect();
+        format!("f {}\n", shifted.join(" "))
+    };
+    corners.map(vertex).concat() + &faces.iter().map(face).collect::<String>()
+}
+
+#[test]
+fn glass_is_closed_whatever_its_objects_are() {
+    let mtl = "newmtl m\nillum 7\nNi 1.5\n";
+    let load = |text: &str| read(format!("mtllib test.mtl\nusemtl m\n{text}"), mtl).unwrap();
+    let assert_volume = |loaded: &Loaded, expected: f32, name: &str| {
+        let found = volume_of_bodies(loaded);
+        assert!((found - expected).abs() < 1e-4, "{name}: {found}, not {expected}");
+    };
+    let large = moved_cube(0, 0.0, 1.0, &OUTWARDS);
+    // Each face of its own group; some with coordinates, some smooth.
+    let mut parted = large.replace("f 1 2 6 5", "vt 0 0\ng part\ns 1\nf 1/1 2/1 6/1 5/1\ns off");
+    parted = parted.replace("f 3 4 8 7", "o other\nf 3 4 8 7");
+    let whole = load(&parted);
+    assert_warnings(&whole, &[]);
+    assert_volume(&whole, 1.0, "one surface in parts");
+    for inner in [&OUTWARDS, &INWARDS] {
+        for outer in [&OUTWARDS, &INWARDS] {
+            let hollow = moved_cube(0, 0.0, 1.0, outer) + &moved_cube(8, 0.25, 0.5, inner);
+            assert_volume(&load(&hollow), 1.0 - 0.125, "a hollow cube");
+            let apart = moved_cube(0, 0.0, 1.0, outer) + &moved_cube(8, 2.0, 0.5, inner);
+            assert_volume(&load(&apart), 1.0 + 0.125, "two cubes");
+        }
+    }
+    // A loose triangle stays a pane, and the cube is a body.
+    let loose = load(&format!("{large}v 5 5 5\nv 6 5 5\nv 5 6 5\nf 9 10 11\n"));
+    assert_warnings(&loose, &[("object", "faces of its glass enclose no body")]);
+    assert_volume(&loose, 1.0, "beside a loose triangle");
+    assert_eq!(loose.scene.triangle_count(), 13);
+    let sheet = load("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n");
+    assert_warnings(&sheet, &[("object", "faces of its glass enclose no body")]);
+    let doubled = load(&moved_cube(0, 0.0, 1.0, &[&OUTWARDS[..], &INWARDS[..]].concat()));
+    assert_volume(&doubled, 0.0, "a cube of two-sided faces");
 }
 
 #[test]

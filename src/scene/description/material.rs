@@ -91,6 +91,16 @@ impl Material {
         !self.unlit && self.emissive.iter().any(|&e| e > 0.0)
     }
 
+    /// True if rays meet the surface with the probability of its opacity.
+    pub(crate) fn is_blended(&self) -> bool {
+        self.alpha == Alpha::Blend && !self.is_skin()
+    }
+
+    /// True if the surface is the skin of a body of glass.
+    pub(crate) fn is_skin(&self) -> bool {
+        self.transmits() && self.interior.absorption.is_some()
+    }
+
     /// True if the surface has a clear coat.
     pub(crate) fn is_coated(&self) -> bool {
         !self.unlit && self.clearcoat.weight > 0.0
@@ -207,6 +217,7 @@ pub enum Alpha {
     Mask(f32),
     /// A ray meets the surface with a probability equal to its opacity. Such pixels have more noise, because each path begins on
     /// one of the surfaces that the pixel sees. The denoiser keeps the depth, normal and motion of the nearest surface with an
-    /// opacity of at least ½, and the albedo of all of them.
+    /// opacity of at least ½, and the albedo of all of them. The skin of a body of glass is whole whatever its opacity is, because a ray
+    /// through a hole would be inside without having entered.
     Blend,
 }

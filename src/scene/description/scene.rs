@@ -36,8 +36,7 @@ impl Scene {
     /// The skin of a body of glass keeps its back faces, because light leaves the body through them.
     pub fn cull_back_faces(&mut self) {
         for material in &mut self.materials {
-            let is_skin = material.transmits() && material.interior.absorption.is_some();
-            material.culled = !material.double_sided && !is_skin;
+            material.culled = !material.double_sided && !material.is_skin();
         }
     }
 }

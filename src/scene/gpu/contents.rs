@@ -24,8 +24,8 @@ pub(crate) fn contents(scene: &Scene, layout: Layout) -> SceneContents {
         transmission: used().any(Material::transmits),
         clearcoat: used().any(Material::is_coated),
         clear_glass: used().any(Material::is_clear),
-        alpha_blend: used().any(|m| m.alpha == Alpha::Blend),
-        alpha_mask: used().any(|m| m.alpha != Alpha::Opaque || m.culled),
+        alpha_blend: used().any(Material::is_blended),
+        alpha_mask: used().any(|m| matches!(m.alpha, Alpha::Mask(_)) || m.is_blended() || m.culled),
         emitters: used().any(Material::is_emitter),
         unlit: used().any(|m| m.unlit),
         ..Default::default()

@@ -2,7 +2,7 @@
 
 use super::{ROUNDING, SAMPLINGS, SIZE, channel, from_above, images, tracer};
 use crate::common::scenes::{block, emitter, glass, lambert, quad, scene, shine};
-use asvgf::scene::{Environment, LightKind, Material, Node, Scene};
+use asvgf::scene::{Alpha, Environment, LightKind, Material, Node, Scene};
 use asvgf::{Camera, Sampling};
 
 /// A plate of glass of this thickness below y = 0.
@@ -100,6 +100,17 @@ fn a_camera_inside_glass_sees_what_the_glass_leaves() {
         let expected = (1.0 - r) * (-0.5 * sigma).exp() / (1.0 - r * (-sigma).exp());
         channel(&found, i).assert_is(expected, 2e-3, &format!("{sigma}"));
     }
+}
+
+#[test]
+fn a_body_is_whole_whatever_its_opacity_is() {
+    let image = |alpha: Alpha, opacity: f32| {
+        let skin = Material { alpha, base_color: [1.0, 1.0, 1.0, opacity], ..glass(1.5, 0.0, Some([0.5, 1.0, 2.0])) };
+        let scene = Scene { environment: Some(Environment::uniform([1.0; 3])), ..plate(skin, 1.0) };
+        images(scene, narrow([0.2, 3.0, 0.1], [0.2, 0.0, 0.1]), tracer(Sampling::Both, 0), 1)
+    };
+    // A ray through a hole would be inside without having entered: it was darker than without any hole.
+    assert_eq!(image(Alpha::Blend, 0.5), image(Alpha::Opaque, 1.0));
 }
 
 #[test]

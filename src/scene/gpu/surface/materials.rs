@@ -148,14 +148,20 @@ fn plain(m: &Material, emission: [f32; 3], images: &[Place]) -> GpuMaterial {
         flags: u32::from(m.double_sided)
             | u32::from(m.unlit) << 1
             | u32::from(m.culled) << 2
-            | u32::from(m.alpha == Alpha::Blend) << 3,
+            | u32::from(m.is_blended()) << 3,
         metallic: m.metallic,
         roughness: m.roughness,
         cutoff: match m.alpha {
             Alpha::Opaque => 0.0,
             Alpha::Mask(cutoff) => cutoff,
-            // 0 would skip the test.
-            Alpha::Blend => 0.5,
+            // 0 skips the test.
+            Alpha::Blend => {
+                if m.is_blended() {
+                    0.5
+                } else {
+                    0.0
+                }
+            }
         },
         specular_edge: m.specular_edge,
         specular: m.specular,

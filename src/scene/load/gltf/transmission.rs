@@ -4,7 +4,7 @@ use gltf::json::Material as MaterialSource;
 use gltf::json::extensions::material::Volume;
 
 use super::image::Images;
-use crate::scene::description::{Interior, Material};
+use crate::scene::description::{Alpha, Interior, Material};
 use crate::scene::load::common::report::Report;
 
 /// Least colour that a volume leaves at its attenuation distance, because black would be an infinite absorption.
@@ -28,7 +28,7 @@ pub(super) fn apply(
         return material;
     };
     let user = format!("{element}.KHR_materials_transmission");
-    Material {
+    let made = Material {
         transmission: report.clamp_unit(extension.transmission_factor.0, || format!("{user}.transmissionFactor")),
         transmission_texture: images.texture(
             &extension.transmission_texture,
@@ -37,7 +37,12 @@ pub(super) fn apply(
         ),
         interior: interior(extensions.volume.as_ref(), index, element, report),
         ..material
+    };
+    if made.is_skin() && made.alpha == Alpha::Blend {
+        let reason = "BLEND is not read beside KHR_materials_volume; the body is drawn whole";
+        report.warn(format!("{element}.alphaMode"), reason);
     }
+    made
 }
 
 /// The inside of a volume that absorbs −ln(colour)/distance per unit of length, or a pane for a thickness of 0.

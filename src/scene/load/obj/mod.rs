@@ -22,6 +22,7 @@ mod material;
 mod part;
 mod polygon;
 mod ring;
+mod skin;
 mod smoothing;
 mod source;
 mod tally;
@@ -39,7 +40,6 @@ use crate::scene::load::common::folder::Folder;
 use crate::scene::load::common::recognise::{foreign, is_binary};
 use crate::scene::load::common::report::Loaded;
 use crate::scene::load::common::report::{Fault, Report};
-use body::Bodies;
 use geometry::Geometry;
 use library::Library;
 use textures::Textures;
@@ -66,7 +66,6 @@ fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fau
     let library = Library::read(&geometry, path, &folder, &mut textures, report);
     let found: Vec<_> = geometry.uses.iter().map(|used| library.find(used, report)).collect();
     let mut scene = Scene { materials: library.materials, ..Scene::default() };
-    let mut bodies = Bodies::default();
 
     let Geometry { mut vectors, colors, faces, groups, .. } = geometry;
     let colors = colors.linear(report);
@@ -87,13 +86,11 @@ fn read(files: Files<'_>, path: &Path, report: &mut Report) -> Result<Scene, Fau
         if let Some(material) = scene.materials.get(mesh.material) {
             warn_unmet(material, &mesh, report);
         }
-        if library.refracting.contains(&mesh.material) && !mesh.triangles.is_empty() {
-            bodies.fill(&mut mesh, &mut scene.materials, report);
-        }
         if !mesh.triangles.is_empty() {
             scene.meshes.push(mesh);
         }
     }
+    body::fill(&mut scene.meshes, &mut scene.materials, &library.refracting, report);
     scene.images = textures.into_images();
     let meshes = (0..scene.meshes.len()).collect();
     let translation = vectors.offset.unwrap_or_default();
