@@ -151,6 +151,11 @@ fn a_clear_coat_that_is_wrong_costs_itself() {
     assert_eq!(of(rough, "clearcoatRoughnessFactor", "-1 is outside 0…1").roughness, 0.0);
     let text = of(json!({"clearcoatFactor": "much"}), "KHR_materials_clearcoat", "the surface has no coat");
     assert_eq!(text, Clearcoat::default());
+    let nameless = json!({"clearcoatFactor": 1, "clearcoatRoughnessTexture": {}});
+    assert_eq!(
+        of(nameless, "clearcoatRoughnessTexture", "missing field `index`; the coat is drawn without it").weight,
+        1.0
+    );
     let missing = json!({"clearcoatFactor": 1, "clearcoatTexture": {"index": 9}});
     let missing = of(missing, "clearcoatTexture", "9");
     assert_eq!((missing.weight, missing.weight_texture), (1.0, None));

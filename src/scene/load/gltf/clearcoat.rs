@@ -2,8 +2,8 @@
 
 use gltf::json::Material as MaterialSource;
 use gltf::json::material::NormalTexture;
-use gltf::json::texture::Info;
 use serde::Deserialize;
+use serde_json::Value;
 
 use super::image::Images;
 use super::normal_map;
@@ -12,15 +12,15 @@ use crate::scene::load::common::report::Report;
 
 const NAME: &str = "KHR_materials_clearcoat";
 
-/// The extension, which the JSON reader does not know.
+/// The extension, which the JSON reader does not know. Textures are read one by one, so that a broken one costs itself.
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct Extension {
     clearcoat_factor: f32,
-    clearcoat_texture: Option<Info>,
+    clearcoat_texture: Option<Value>,
     clearcoat_roughness_factor: f32,
-    clearcoat_roughness_texture: Option<Info>,
-    clearcoat_normal_texture: Option<NormalTexture>,
+    clearcoat_roughness_texture: Option<Value>,
+    clearcoat_normal_texture: Option<Value>,
 }
 
 /// Adds the coat to a material.
@@ -53,8 +53,12 @@ fn read(
     report: &mut Report,
 ) -> Clearcoat {
     let user = |name: &str| format!("{element}.{name}");
-    let normals = extension.clearcoat_normal_texture.as_ref();
-    let (normal_texture, normal_scale) = normal_map::read(normals, &user("clearcoatNormalTexture"), images, report);
+    let weights = texture(&extension.clearcoat_texture, &user("clearcoatTexture"), report);
+    let roughnesses = texture(&extension.clearcoat_roughness_texture, &user("clearcoatRoughnessTexture"), report);
+    let normals: Option<NormalTexture> =
+        texture(&extension.clearcoat_normal_texture, &user("clearcoatNormalTexture"), report);
+    let (normal_texture, normal_scale) =
+        normal_map::read(normals.as_ref(), &user("clearcoatNormalTexture"), images, report);
     // A mesh has one set of tangents, which belongs to one set of coordinates.
     let apart = normal_texture.zip(below.normal_texture).is_some_and(|(coat, below)| coat.uv_set != below.uv_set);
     if apart {
@@ -63,14 +67,16 @@ fn read(
     }
     Clearcoat {
         weight: report.clamp_unit(extension.clearcoat_factor, || user("clearcoatFactor")),
-        weight_texture: images.texture(&extension.clearcoat_texture, &user("clearcoatTexture"), report),
+        weight_texture: images.texture(&weights, &user("clearcoatTexture"), report),
         roughness: report.clamp_unit(extension.clearcoat_roughness_factor, || user("clearcoatRoughnessFactor")),
-        roughness_texture: images.texture(
-            &extension.clearcoat_roughness_texture,
-            &user("clearcoatRoughnessTexture"),
-            report,
-        ),
+        roughness_texture: images.texture(&roughnesses, &user("clearcoatRoughnessTexture"), report),
         normal_texture: normal_texture.filter(|_| !apart),
         normal_scale,
     }
+}
+
+/// A texture of the extension, or none, with a warning, if it cannot be read.
+fn texture<T: for<'a> Deserialize<'a>>(value: &Option<Value>, element: &str, report: &mut Report) -> Option<T> {
+    let read = T::deserialize(value.as_ref()?);
+    read.map_err(|error| report.warn(element, format!("{error}; the coat is drawn without it"))).ok()
 }
