@@ -32,6 +32,19 @@ fn every_field_of_a_material() {
 }
 
 #[test]
+fn a_negative_strength_of_emission_is_named() {
+    let mut gltf = Gltf::textured_triangle();
+    let strength = json!({"KHR_materials_emissive_strength": {"emissiveStrength": -5}});
+    gltf.push("materials", json!({"emissiveFactor": [1, 1, 1], "extensions": strength}));
+    let loaded = gltf.load().unwrap();
+    assert_warnings(
+        &loaded,
+        &[("materials[0].KHR_materials_emissive_strength.emissiveStrength", "-5 is not at least 0")],
+    );
+    assert_eq!(loaded.scene.materials[0].emissive, [0.0; 3]);
+}
+
+#[test]
 fn occlusion_maps_are_said_to_be_left_out() {
     let mut gltf = Gltf::textured_triangle();
     gltf.push("textures", json!({"source": 0}));

@@ -46,8 +46,12 @@ fn read(source: &MaterialSource, element: &str, images: &mut Images, report: &mu
     let normals = source.normal_texture.as_ref();
     let (normal_texture, normal_scale) = normal_map::read(normals, &format!("{element}.normalTexture"), images, report);
     let emissive_texture = images.texture(&source.emissive_texture, &format!("{element}.emissiveTexture"), report);
-    let (factor, strength) = emission(source);
-    let strength = if strength >= 0.0 { strength } else { f32::NAN };
+    let (factor, mut strength) = emission(source);
+    if strength.is_nan() || strength < 0.0 {
+        let user = format!("{element}.KHR_materials_emissive_strength.emissiveStrength");
+        report.warn(user, format!("{strength} is not at least 0; 0 is used"));
+        strength = 0.0;
+    }
     let emissive = factor.map(|factor| factor * strength);
     let common = Material {
         name: source.name.clone().unwrap_or_default(),
