@@ -11,7 +11,7 @@
 #import asvgf::ggx::{LEAST_COSINE, distribution, fresnel, smith, sample_visible_normal}
 #endif
 #ifdef CLEARCOAT
-#import asvgf::clearcoat::{choice_below, coat_share, coated, sample_coat}
+#import asvgf::clearcoat::{choice_below, coated, sample_coat}
 #endif
 #ifdef TRANSMISSION
 #import asvgf::bsdf::{NARROW, WIDE}
@@ -33,7 +33,7 @@ fn specular_share(s: Surface) -> f32 {
 }
 #endif
 
-// The same without a coat.
+// The light that a surface without its coat scatters from this direction towards the viewer.
 fn scattering_below(s: Surface, light: vec3<f32>) -> Scattering {
 #ifdef TRANSMISSION
     if is_glass(s) {
@@ -110,10 +110,11 @@ fn scattering(s: Surface, light: vec3<f32>) -> Scattering {
 // Samples a direction by the density of `scattering`.
 fn sample_direction(s: Surface, u: vec2<f32>, choice: f32) -> vec3<f32> {
 #ifdef CLEARCOAT
-    if choice < coat_share(s) {
+    let below = choice_below(s, choice);
+    if below < 0.0 {
         return sample_coat(s, u);
     }
-    return sample_below(s, u, choice_below(s, choice));
+    return sample_below(s, u, below);
 #else
     return sample_below(s, u, choice);
 #endif
@@ -123,10 +124,10 @@ fn sample_direction(s: Surface, u: vec2<f32>, choice: f32) -> vec3<f32> {
 // True if a direction that was sampled with this choice is one of the specular lobe.
 fn is_mirrored(s: Surface, chosen: f32, direction: vec3<f32>) -> bool {
 #ifdef CLEARCOAT
-    if chosen < coat_share(s) {
+    let choice = choice_below(s, chosen);
+    if choice < 0.0 {
         return true;
     }
-    let choice = choice_below(s, chosen);
 #else
     let choice = chosen;
 #endif

@@ -1,6 +1,6 @@
 //! Specular light as a signal of its own: the sum of both signals is the light, and nothing that does not shine notices.
 
-use crate::common::scenes::{block, emitter, glass, lambert, quad, scene};
+use crate::common::scenes::{block, emitter, floor, glass, lambert, quad, scene};
 use crate::common::stage::Stage;
 use crate::common::statistics::{Estimate, Rgb, luminance, mean};
 use asvgf::scene::{Clearcoat, Material, Scene, builtin};
@@ -63,7 +63,7 @@ fn both_signals_of_a_coat_together_are_the_light() {
 fn behind_glass() -> Scene {
     let shiny = Material { specular: [0.04; 3], roughness: 0.3, ..lambert([0.6, 0.4, 0.2]) };
     let frosted = Material { transmission: 0.7, ..glass(1.5, 0.6, None) };
-    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let floor = floor(0);
     let lamp = quad([-0.5, 1.5, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], 3);
     let pane = quad([-0.6, 0.0, 0.5], [0.6, 0.0, 0.0], [0.0, 1.0, 0.0], 1);
     let mut meshes = vec![floor, lamp, pane];

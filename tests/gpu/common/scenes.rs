@@ -1,7 +1,7 @@
 //! Small scenes made by hand.
 
 use asvgf::Camera;
-use asvgf::scene::{Interior, Light, LightKind, Material, Mesh, Node, Scene, Transform};
+use asvgf::scene::{Image, Interior, Light, LightKind, Material, Mesh, Node, Scene, Transform};
 
 /// A parallelogram whose front looks along u × v.
 pub fn quad(corner: [f32; 3], u: [f32; 3], v: [f32; 3], material: usize) -> Mesh {
@@ -28,6 +28,17 @@ pub fn block(low: [f32; 3], high: [f32; 3], material: usize) -> Vec<Mesh> {
         quad([a, q, r], [x, 0.0, 0.0], [0.0, 0.0, -z], material),
         quad([a, b, c], [x, 0.0, 0.0], [0.0, 0.0, z], material),
     ]
+}
+
+/// A floor at y = 0 that faces +Y, with u along +X and v along −Z: its tangent is +X, and upwards in its images is +Z.
+pub fn floor(material: usize) -> Mesh {
+    quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], material)
+}
+
+/// The floor with an image of one opaque texel, which the material may use, without light.
+pub fn textured_floor([r, g, b]: [u8; 3], material: Material) -> Scene {
+    let image = Image { width: 1, height: 1, texels: vec![[r, g, b, 255]], ..Default::default() };
+    Scene { images: vec![image], ..scene(vec![material], vec![floor(0)]) }
 }
 
 /// A Lambertian surface.

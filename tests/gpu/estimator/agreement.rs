@@ -2,7 +2,7 @@
 
 use super::{ROUNDING, SAMPLINGS, channel, from_above, images, over_floor, tracer};
 use crate::common::plane::{V, unit};
-use crate::common::scenes::{emitter, lambert, quad, scene};
+use crate::common::scenes::{emitter, floor, lambert, quad, scene};
 use asvgf::Camera;
 use asvgf::scene::{Environment, Material, Scene, builtin};
 use std::f64::consts::PI;
@@ -48,7 +48,7 @@ fn sky_radiance(sky: &Environment, d: V) -> f64 {
 
 #[test]
 fn under_a_sky_with_a_bright_spot() {
-    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let floor = floor(0);
     let scene = Scene { environment: Some(sky()), ..scene(vec![lambert([0.6; 3])], vec![floor]) };
     assert_agreement(&scene, from_above(), 0, "sky");
     // Cosine-weighted mean over the upper half by the midpoint rule, in equal steps of cos² and azimuth.

@@ -2,7 +2,7 @@
 
 use super::{ROUNDING, SAMPLINGS, channel, from_above, images, over_floor, tracer};
 use crate::common::plane::V;
-use crate::common::scenes::{emitter, lambert, quad, scene};
+use crate::common::scenes::{emitter, floor, lambert, quad, scene};
 use asvgf::Sampling;
 use asvgf::scene::{Alpha, Image, Material, Scene, Texture, Transform};
 use std::f64::consts::PI;
@@ -28,7 +28,7 @@ fn form_factor(p: V, [[x0, x1], [z0, z1]]: [[f64; 2]; 2]) -> f64 {
 
 /// A floor and a lamp that shines down.
 pub fn lamp_over_floor(material: Material) -> Scene {
-    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let floor = floor(0);
     let [[x0, x1], [z0, z1]] = LAMP.map(|r| r.map(|v| v as f32));
     // x × z points down.
     let lamp = quad([x0, HEIGHT as f32, z0], [x1 - x0, 0.0, 0.0], [0.0, 0.0, z1 - z0], 1);

@@ -1,16 +1,12 @@
 //! Clear coats against closed forms: what the coat mirrors, and what it leaves to the surface below it.
 
 use super::{SAMPLINGS, channel, images, tracer};
-use crate::common::scenes::{block, emitter, glass, lambert, quad, scene};
+use crate::common::scenes::{block, emitter, floor, glass, lambert, scene, textured_floor};
 use crate::common::statistics::Estimate;
-use asvgf::scene::{Clearcoat, Environment, Image, Material, Mesh, Scene, Texture};
+use asvgf::scene::{Clearcoat, Environment, Material, Scene, Texture};
 use asvgf::{Camera, Sampling};
 
 const BLACK: [f32; 3] = [0.0; 3];
-
-fn floor() -> Mesh {
-    quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0)
-}
 
 fn coated(weight: f32, roughness: f32, below: Material) -> Material {
     Material { clearcoat: Clearcoat { weight, roughness, ..Default::default() }, ..below }
@@ -42,7 +38,7 @@ fn a_white_surface_under_a_coat_is_white_in_a_white_furnace() {
             let mirror = Material { metallic: 1.0, roughness: 0.0, ..lambert([1.0; 3]) };
             for (below, name) in [(lambert([1.0; 3]), "matte"), (mirror, "a mirror"), (glass(1.5, 0.4, None), "glass")]
             {
-                let scene = scene(vec![coated(0.8, roughness, below)], vec![floor()]);
+                let scene = scene(vec![coated(0.8, roughness, below)], vec![floor(0)]);
                 for sampling in [Sampling::Both, Sampling::Scattered] {
                     let found = under_the_sky(scene.clone(), at(angle), sampling);
                     found.assert_is(1.0, 2e-3, &format!("{name}, roughness {roughness}, {angle}°, {sampling:?}"));
@@ -56,7 +52,7 @@ fn a_white_surface_under_a_coat_is_white_in_a_white_furnace() {
 fn a_coat_mirrors_as_schlick_says_and_leaves_the_rest() {
     for (weight, color) in [(1.0, 0.0), (0.5, 0.0), (1.0, 0.6_f32)] {
         for (roughness, angle) in [(0.0, 0.0), (0.5, 40.0), (0.2, 70.0), (1.0, 85.0)] {
-            let scene = scene(vec![coated(weight, roughness, lambert([color; 3]))], vec![floor()]);
+            let scene = scene(vec![coated(weight, roughness, lambert([color; 3]))], vec![floor(0)]);
             let coat = f64::from(weight) * mirrored(angle);
             let expected = coat + (1.0 - coat) * f64::from(color);
             for sampling in SAMPLINGS {
@@ -74,7 +70,7 @@ fn a_coat_mirrors_as_schlick_says_and_leaves_the_rest() {
 #[test]
 fn a_coat_lies_over_what_the_surface_emits() {
     for angle in ANGLES {
-        let scene = scene(vec![coated(1.0, 0.1, emitter([2.0; 3]))], vec![floor()]);
+        let scene = scene(vec![coated(1.0, 0.1, emitter([2.0; 3]))], vec![floor(0)]);
         let found = channel(&images(scene, at(angle), tracer(Sampling::Both, 0), 4), 0);
         found.assert_is(2.0 * (1.0 - mirrored(angle)), 1e-3, &format!("{angle}°"));
     }
@@ -93,19 +89,12 @@ fn a_coat_of_a_body_of_glass_loses_no_light() {
     }
 }
 
-/// The black floor with an image of this one texel.
-fn textured(texel: [u8; 3], material: Material) -> Scene {
-    let [r, g, b] = texel;
-    let image = Image { width: 1, height: 1, texels: vec![[r, g, b, 255]], ..Default::default() };
-    Scene { images: vec![image], ..scene(vec![material], vec![floor()]) }
-}
-
 #[test]
 fn textures_of_a_coat_have_their_channels() {
     let texture = Some(Texture::new(0));
     let weighted = Clearcoat { weight: 0.9, weight_texture: texture, ..Default::default() };
     let found = under_the_sky(
-        textured([102, 255, 0], Material { clearcoat: weighted, ..lambert(BLACK) }),
+        textured_floor([102, 255, 0], Material { clearcoat: weighted, ..lambert(BLACK) }),
         at(60.0),
         Sampling::Both,
     );
@@ -113,7 +102,7 @@ fn textures_of_a_coat_have_their_channels() {
     // Under a sun off the mirrored direction, a coat shines if it is rough.
     let coat = Clearcoat { weight: 1.0, roughness: 1.0, roughness_texture: texture, ..Default::default() };
     let lit = |green: u8| {
-        let mut scene = textured([255, green, 255], Material { clearcoat: coat, ..lambert(BLACK) });
+        let mut scene = textured_floor([255, green, 255], Material { clearcoat: coat, ..lambert(BLACK) });
         let kind = asvgf::scene::LightKind::Directional;
         crate::common::scenes::shine(&mut scene, kind, [1.0; 3], f32::INFINITY, [0.0; 3]);
         channel(&images(scene, at(30.0), tracer(Sampling::Both, 0), 4), 0).mean
@@ -135,7 +124,7 @@ fn a_coat_has_a_normal_map_of_its_own() {
         (Clearcoat { normal_scale: 0.0, ..of_coat }, None, 0.0, "a scale of 0 flattens it"),
     ] {
         let material = Material { clearcoat, normal_texture, ..lambert(BLACK) };
-        let found = under_the_sky(textured(texel, material), at(0.0), Sampling::Both);
+        let found = under_the_sky(textured_floor(texel, material), at(0.0), Sampling::Both);
         found.assert_is(mirrored(angle), 3e-3, what);
     }
 }

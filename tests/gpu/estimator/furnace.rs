@@ -1,7 +1,7 @@
 //! White furnaces: where the same light arrives from everywhere, the reflected light follows from the albedo alone.
 
 use super::{ROUNDING, SAMPLINGS, channel, from_above, images, tracer};
-use crate::common::scenes::{lambert, quad, scene};
+use crate::common::scenes::{floor, lambert, quad, scene};
 use asvgf::scene::{Environment, Material, Mesh, Scene};
 use asvgf::{Camera, Sampling, TracerSettings};
 use std::f64::consts::PI;
@@ -49,7 +49,7 @@ fn roulette_changes_no_mean() {
 
 /// A floor under a sky of radiance 1.
 fn under_the_sky(material: Material) -> Scene {
-    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let floor = floor(0);
     Scene { environment: Some(Environment::uniform([1.0; 3])), ..scene(vec![material], vec![floor]) }
 }
 

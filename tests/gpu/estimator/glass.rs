@@ -1,7 +1,7 @@
 //! Glass against closed forms: furnaces, Snell, Fresnel, Beer–Lambert, and light that goes straight through it.
 
 use super::{ROUNDING, SAMPLINGS, SIZE, channel, from_above, images, tracer};
-use crate::common::scenes::{block, emitter, glass, lambert, quad, scene, shine};
+use crate::common::scenes::{block, emitter, floor, glass, lambert, quad, scene, shine};
 use asvgf::scene::{Alpha, Environment, LightKind, Material, Node, Scene};
 use asvgf::{Camera, Sampling};
 
@@ -47,7 +47,7 @@ fn a_pane_in_a_white_furnace_is_white_and_a_coloured_one_tints_once() {
     for roughness in [0.0, 0.5] {
         for (color, cosine) in [([1.0; 3], 1.0), ([0.25, 0.5, 0.75], 1.0), ([0.25, 0.5, 0.75], 0.5_f32)] {
             let material = Material { base_color: [color[0], color[1], color[2], 1.0], ..glass(1.5, roughness, None) };
-            let pane = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+            let pane = floor(0);
             let sky = Some(Environment::uniform([1.0; 3]));
             let under = Scene { environment: sky, ..scene(vec![material], vec![pane]) };
             let z = f64::from((1.0 - cosine * cosine).sqrt()) * 3.0;
@@ -157,16 +157,16 @@ fn beyond_the_critical_angle_everything_is_mirrored() {
 #[test]
 fn light_goes_through_panes_and_plates_to_a_floor() {
     let color = [0.25, 0.5, 1.0_f32];
-    let floor = || quad([-9.0, -2.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 1);
+    let ground = || quad([-9.0, -2.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 1);
     // A camera below the glass, beside the light's beam.
     let camera = narrow([0.4, -0.5, 0.0], [0.0, -2.0, 0.0]);
     for absorption in [None, Some([0.3; 3])] {
         let material = Material { base_color: [color[0], color[1], color[2], 1.0], ..glass(1.5, 0.0, absorption) };
         let panes = match absorption {
-            None => vec![quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0)],
+            None => vec![floor(0)],
             Some(_) => block([-9.0, -0.25, -9.0], [9.0, 0.0, 9.0], 0),
         };
-        let mut scene = scene(vec![material, lambert([0.5; 3])], [panes, vec![floor()]].concat());
+        let mut scene = scene(vec![material, lambert([0.5; 3])], [panes, vec![ground()]].concat());
         shine(&mut scene, LightKind::Directional, [3.0; 3], f32::INFINITY, [0.0; 3]);
         for sampling in [Sampling::Both, Sampling::Lights] {
             let found = images(scene.clone(), camera, tracer(sampling, 0), 4);
@@ -188,10 +188,9 @@ fn all_estimators_agree_on_light_behind_a_clear_pane() {
     // Through a pane light goes straight, so all estimators have the same mean.
     let lamp = || quad([-0.5, 1.0, -0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], 2);
     let pane = || quad([-9.0, 0.5, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
-    let floor = || quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 1);
     let tinted = Material { base_color: [0.5, 0.8, 1.0, 1.0], ..glass(1.5, 0.0, None) };
     let shiny = Material { specular: [0.04; 3], roughness: 0.4, ..lambert([0.5; 3]) };
-    let scene = scene(vec![tinted, shiny, emitter([4.0; 3])], vec![pane(), floor(), lamp()]);
+    let scene = scene(vec![tinted, shiny, emitter([4.0; 3])], vec![pane(), floor(1), lamp()]);
     let camera = Camera { eye: [0.0, 0.3, 1.5], target: [0.0, 0.0, 0.0], fov_y: 0.3, ..Default::default() };
     let found = SAMPLINGS.map(|sampling| images(scene.clone(), camera, tracer(sampling, 0), 96));
     for i in 0..3 {

@@ -1,7 +1,7 @@
 //! Environments with more texels than the table has cells, and images larger than a storage binding.
 
 use super::{ROUNDING, SAMPLINGS, SIZE, channel, from_above, images, tracer};
-use crate::common::scenes::{lambert, quad, scene};
+use crate::common::scenes::{floor, lambert, quad, scene};
 use crate::common::stage::Stage;
 use crate::common::statistics::{Estimate, Rgb};
 use asvgf::scene::{Environment, Image, Material, Scene, Texture};
@@ -12,7 +12,7 @@ const ALBEDO: f64 = 0.6;
 
 /// A floor in the middle of an environment.
 fn floor_under(environment: Environment) -> Scene {
-    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let floor = floor(0);
     Scene { environment: Some(environment), ..scene(vec![lambert([ALBEDO as f32; 3])], vec![floor]) }
 }
 

@@ -1,13 +1,13 @@
 //! Materials with special light: unlit, coloured by vertices, coated, transparent.
 
 use super::{SIZE, channel, floor_points, from_above, images, tracer};
-use crate::common::scenes::{lambert, quad, scene, shine};
+use crate::common::scenes::{floor, lambert, quad, scene, shine};
 use asvgf::scene::{Alpha, Environment, Image, LightKind, Material, Node, Scene, Texture, Transform};
 use asvgf::{Camera, Sampling};
 
 #[test]
 fn an_unlit_surface_shows_its_colour_and_lights_nothing() {
-    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let floor = floor(0);
     // Half of the camera's view lies under an unlit sign. It faces down, and turns its back up to the camera.
     let sign = quad([0.3, 0.5, -9.0], [9.0, 0.0, 0.0], [0.0, 0.0, 18.0], 1);
     let unlit = Material { unlit: true, ..lambert([0.25, 0.5, 0.75]) };
@@ -42,7 +42,7 @@ fn nothing_at_all_is_black() {
 
 /// A floor under a white sky: each pixel shows the fraction of light from everywhere that the surface reflects.
 fn under_the_sky(material: Material) -> Scene {
-    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let floor = floor(0);
     Scene { environment: Some(Environment::uniform([1.0; 3])), ..scene(vec![material], vec![floor]) }
 }
 

@@ -2,9 +2,9 @@
 
 use super::{SIZE, channel, from_above, images, tracer};
 use crate::common::plane::{V, add, dot, scale, sub, unit};
-use crate::common::scenes::{lambert, quad, scene};
+use crate::common::scenes::{lambert, textured_floor};
 use crate::common::stage::Stage;
-use asvgf::scene::{Environment, Image, Light, LightKind, Material, Mesh, Node, Scene, Texture, Transform};
+use asvgf::scene::{Environment, Light, LightKind, Material, Node, Scene, Texture, Transform};
 use asvgf::{Camera, Sampling, Settings, View};
 use std::f64::consts::PI;
 
@@ -13,17 +13,10 @@ const ALBEDO: f64 = 0.6;
 /// Direction to the sun.
 const SUN: V = [0.4, 0.8, 0.2];
 
-/// A floor that faces +Y, with u along +X and v along −Z: its tangent is +X, and upwards in its images is +Z.
-fn floor() -> Mesh {
-    quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0)
-}
-
 /// The floor with an image of this texel for its normals, without light.
 fn mapped(texel: [u8; 3], normal_scale: f32, material: Material) -> Scene {
     let material = Material { normal_texture: Some(Texture::new(0)), normal_scale, ..material };
-    let [r, g, b] = texel;
-    let image = Image { width: 1, height: 1, texels: vec![[r, g, b, 255]], ..Default::default() };
-    Scene { images: vec![image], ..scene(vec![material], vec![floor()]) }
+    textured_floor(texel, material)
 }
 
 /// Adds a sun of this direction and radiance 1.

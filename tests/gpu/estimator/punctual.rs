@@ -2,7 +2,7 @@
 
 use super::{floor_points, from_above, images, tracer};
 use crate::common::plane::{V, dot, length, scale, sub};
-use crate::common::scenes::{lambert, quad, scene, shine};
+use crate::common::scenes::{floor, lambert, scene, shine};
 use asvgf::Sampling;
 use asvgf::scene::{LightKind, Scene, Transform};
 use std::f64::consts::PI;
@@ -12,7 +12,7 @@ const INTENSITY: [f32; 3] = [3.0, 2.0, 0.5];
 const PLACE: [f32; 3] = [0.8, 1.7, -0.4];
 
 fn unlit() -> Scene {
-    let floor = quad([-9.0, 0.0, 9.0], [18.0, 0.0, 0.0], [0.0, 0.0, -18.0], 0);
+    let floor = floor(0);
     scene(vec![lambert([ALBEDO as f32; 3])], vec![floor])
 }
 

@@ -108,7 +108,6 @@ impl Skins {
     fn measure(&self, surface: &mut Surface) {
         let corners = || surface.triangles.iter().map(|&triangle| self.corners[triangle]);
         let origin = corners().next().map_or([0.0; 3], |[a, ..]| self.places[a]);
-        (surface.low, surface.high) = (origin, origin);
         let mut walks: HashMap<(usize, usize), i64> = HashMap::new();
         let mut seen = HashSet::new();
         let mut is_closed = true;
